@@ -42,7 +42,7 @@ TEST(Part, HasTheCellsTheirNodesAndTheirValues) {
         ASSERT_EQ(part.mesh.cell_count(), cells.size());
         ASSERT_EQ(part.mesh.point_count(), part.nodes.size());
         ASSERT_TRUE(std::is_sorted(part.nodes.begin(), part.nodes.end()));
-        const Field nodal = part.field(of_nodes, false), cellular = part.field(of_cells, true);
+        const Field nodal = rows_of(of_nodes, part.nodes), cellular = rows_of(of_cells, part.cells);
         std::vector<bool> used(part.nodes.size(), false);
         const auto expect_same = [&](Mesh::Index of_part, Mesh::Index whole) {
             const auto here = static_cast<std::size_t>(of_part), there = static_cast<std::size_t>(whole);

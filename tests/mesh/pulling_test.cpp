@@ -1,7 +1,6 @@
 #include <map>
 #include <set>
 
-#include "barycert/mesh/cell_types.hpp"
 #include "mesh/shaped_mesh.hpp"
 
 namespace barycert::test {
@@ -288,7 +287,7 @@ TEST(Pulling, APolyhedronWhoseFacesDoNotCloseIsTold) {
                 if (f != missing) rings.push_back(ring);
             }
             if (whole.point_count() < 5) open.points.resize(15);
-            add_shape(open, mesh::polyhedron, whole.shapes.nodes, rings);
+            add_shape(open, mesh::vtk_polyhedron, whole.shapes.nodes, rings);
             EXPECT_EQ(mesh::pull(open), 1U) << int{type};
         }
     }
@@ -317,7 +316,7 @@ TEST(Pulling, AStripIsItsTriangles) {
     Mesh mesh;
     mesh.dimension = 2;
     mesh.points = {0, 0, 0, 2, 2, 0, 2, 2, 4, 0};
-    add_shape(mesh, mesh::strip, {0, 1, 2, 3, 4});
+    add_shape(mesh, mesh::vtk_triangle_strip, {0, 1, 2, 3, 4});
     cut(mesh);
     ASSERT_EQ(mesh.cell_count(), 3U);
     EXPECT_EQ(filled(mesh), 12);

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <random>
 
-#include "barycert/mesh/pulling.hpp"
+#include "barycert/mesh/cell_types.hpp"
 
 namespace barycert::test {
 
@@ -83,7 +83,7 @@ inline Mesh one_cell(std::uint8_t type, const std::vector<Mesh::Index>& order, b
             for (const Mesh::Index place : places_of_ring) ring.push_back(order[static_cast<std::size_t>(place)]);
         }
     }
-    add_shape(mesh, as_polyhedron ? mesh::polyhedron : type, order, rings);
+    add_shape(mesh, as_polyhedron ? std::uint8_t{mesh::vtk_polyhedron} : type, order, rings);
     return mesh;
 }
 

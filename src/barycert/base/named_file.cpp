@@ -25,16 +25,14 @@ bool can_be_overwritten(const std::string& path) {
 
 Status check_writable(const std::string& path) {
     if (path == "-") {
-        if (fcntl(STDOUT_FILENO, F_GETFD) < 0)
-            return Error{.what = "cannot write to stdout", .found = std::strerror(errno)};
-        return Done{};
+        if (fcntl(STDOUT_FILENO, F_GETFD) >= 0) return Done{};
+        return Error{.what = "cannot write to stdout", .found = std::strerror(errno)};
     }
     // A pipe would see its writer come and go: only ask of it whether it may be written.
     struct stat status {};
     if (stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode)) {
-        if (access(path.c_str(), W_OK) != 0)
-            return Error{.what = "cannot write the file", .file = path, .found = std::strerror(errno)};
-        return Done{};
+        if (access(path.c_str(), W_OK) == 0) return Done{};
+        return Error{.what = "cannot write the file", .file = path, .found = std::strerror(errno)};
     }
     return OutputFile(path).close();
 }

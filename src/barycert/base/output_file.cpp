@@ -166,16 +166,9 @@ void OutputFile::forget_name() {
 
 void OutputFile::write(std::string_view bytes) {
     if (!file_) return;
-    if (bytes.size() >= buffer_size) {  // gathering it would be a copy for nothing
-        flush();
-        return put(bytes);
-    }
-    while (!bytes.empty()) {
-        const std::size_t step = std::min(bytes.size(), buffer_size - buffer_.size());
-        buffer_.append(bytes.substr(0, step));
-        bytes.remove_prefix(step);
-        if (buffer_.size() == buffer_size) flush();
-    }
+    if (buffer_.size() + bytes.size() > buffer_size) flush();
+    if (bytes.size() >= buffer_size) return put(bytes);  // gathering it would be a copy for nothing
+    buffer_ += bytes;
 }
 
 void OutputFile::replace(std::uint64_t offset, std::string_view bytes) {
@@ -239,12 +232,8 @@ Status OutputFile::commit() {
         if (in_place || !error_.what.empty()) return status();
     }
     if (begun_ == nullptr) return Done{};
-    if (std::rename(begun_->path.c_str(), real_path_.c_str()) != 0) {
-        fail(put_in_place, errno);
-        return error_;
-    }
-    forget_name();
-    return Done{};
+    std::rename(begun_->path.c_str(), real_path_.c_str()) == 0 ? forget_name() : fail(put_in_place, errno);
+    return status();
 }
 
 void OutputFile::fail(const char* what, int error_number) {

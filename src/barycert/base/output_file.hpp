@@ -6,8 +6,6 @@
 
 namespace barycert::base {
 
-// Names that a process has given to unfinished files (see OutputFile), removed when a signal ends it.
-
 /// For the main function of a program: from now on SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGPIPE and SIGXCPU first remove
 /// the unfinished files of this process and then end it as they would have. A signal that is ignored stays ignored.
 /// `tell`: SIGINT, SIGTERM and SIGHUP say on stderr that they ended it. A library must not call it.

@@ -1,10 +1,10 @@
 #include "barycert/base/text.hpp"
 
+#include <fast_float/fast_float.h>
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-
-#include <fast_float/fast_float.h>
 
 #include "barycert/environment.hpp"
 
@@ -25,10 +25,8 @@ std::string word_of_bytes(std::string_view text) {
     std::string word = "\"$(printf '";
     for (const char c : text.substr(0, end)) {
         const auto byte = static_cast<unsigned char>(c);
-        std::array<char, 5> octal{};
-        std::snprintf(octal.data(), octal.size(), "\\%03o", static_cast<unsigned>(byte));
         const bool plain = byte >= 0x20 && byte < 0x7f && c != '\'' && c != '\\' && c != '-';
-        word += c == '%' ? "%%" : plain ? std::string(1, c) : std::string(octal.data());
+        word += c == '%' ? "%%" : plain ? std::string(1, c) : fmt::format("\\{:03o}", byte);
     }
     word += "')\"";
     if (end != text.size()) word += "'" + std::string(text.substr(end)) + "'";
@@ -88,11 +86,7 @@ std::string printable(std::string_view text) {
         } else if (bytes == "\n" || bytes == "\t" || bytes == "\r") {
             out += bytes == "\n" ? "\\n" : bytes == "\t" ? "\\t" : "\\r";
         } else {
-            for (const char byte : bytes) {
-                constexpr std::string_view digits = "0123456789abcdef";
-                const auto value = static_cast<unsigned char>(byte);
-                out += {'\\', 'x', digits[value >> 4U], digits[value & 15U]};
-            }
+            for (const char byte : bytes) out += fmt::format("\\x{:02x}", static_cast<unsigned char>(byte));
         }
     }
     return out;

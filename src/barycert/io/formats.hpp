@@ -28,26 +28,22 @@ using base::whole_number;
 
 /// read() in the environment of exact results. Error: what it throws as an Exception; memory is short.
 template <class Read>
-auto read_guarded(const std::string& path, const Read& read) -> decltype(Result(read())) {
+auto read_guarded(const std::string& path, const Read& read) -> decltype(Result(read())) try {
     const ExactEnvironment environment;
-    try {
-        return read();
-    } catch (const Exception& problem) {
-        return problem.error();
-    } catch (const std::bad_alloc&) {
-        return base::too_little_memory(path);
-    }
+    return read();
+} catch (const Exception& problem) {
+    return problem.error();
+} catch (const std::bad_alloc&) {
+    return base::too_little_memory(path);
 }
 
 /// What f() throws as an Exception, as a Status.
 template <class F>
-Status status_of(const F& f) {
-    try {
-        f();
-    } catch (const Exception& problem) {
-        return problem.error();
-    }
+Status status_of(const F& f) try {
+    f();
     return Done{};
+} catch (const Exception& problem) {
+    return problem.error();
 }
 
 /// The fields of a line, parted by blanks or a separator with blanks around it; empty where it has no neighbour.
@@ -209,9 +205,7 @@ Source points_of_table(PointTable table, const std::string& file, int dimension,
 Result<PointTable> read_vtk_table(const std::string& path, bool arrays,
                                   NonfinitePoints nonfinite = NonfinitePoints::error);
 
-// Fields from files of their own: a row of numbers for each node or cell.
-
-/// One field of any number of rows, all of as many components.
+/// One field from a file of its own: any number of rows, all of as many components.
 ///
 /// Text: a row a line, numbers between blanks, tabs, commas or semicolons, rounded to nearest; nan and inf are taken as
 /// they are. Blank lines, and what follows a #, are passed over. With `column`, CSV, whose first line settles the

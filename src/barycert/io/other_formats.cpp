@@ -1,6 +1,9 @@
+#include <fmt/format.h>
+
 #include <filesystem>
 
 #include "barycert/io/formats.hpp"
+#include "barycert/io/vtk/numbers.hpp"
 
 namespace barycert::io {
 namespace {
@@ -31,7 +34,7 @@ constexpr std::array formats{
     OtherFormat{" .off .stl .ply .obj .poly .smesh ", "a PLC (a surface), not a mesh",
                 "mesh it first with `barycert mesh {in}`"},
     OtherFormat{" .geo .geo_unrolled .brep .step .stp .iges .igs ", "a geometry, not a mesh",
-                "mesh it with `gmsh -3 {in} -format msh41 -o {stem.msh}` (-2 for triangles)"},
+                "mesh it with `gmsh -3 {in} -format msh41 -o {msh}` (-2 for triangles)"},
     OtherFormat{" .vtkhdf ", "a VTKHDF file", "{paraview}"},
     OtherFormat{" .h5 .hdf5 .hdf ", "an HDF5 file", "if it belongs to an .xdmf file, name that"},
     OtherFormat{" .nc ", "a NetCDF file", "", "exodus"},
@@ -46,11 +49,9 @@ constexpr std::array formats{
 };
 
 const OtherFormat* by_suffix(std::string_view suffix) {
-    const std::string word = " " + std::string(suffix) + " ";
-    for (const OtherFormat& format : formats) {
-        if (format.suffixes.find(word) != std::string_view::npos) return &format;
-    }
-    return nullptr;
+    const auto is_it = [&](const OtherFormat& format) { return has_word(format.suffixes, suffix); };
+    const auto* const found = std::ranges::find_if(formats, is_it);
+    return found == formats.end() ? nullptr : found;
 }
 
 constexpr OtherFormat fluent{"", "a mesh of Fluent", "", "ansys"};
@@ -116,9 +117,8 @@ std::string by_paraview(const std::string& path) {
     if (has_suffix(path, ".vtkhdf"))
         return "convert it with `cp " + shell_word(path) + " " + shell_word(stem + ".hdf") + "` and " +
                paraview_command(stem + ".hdf", stem + "-grid.vtu");
-    for (const char* const known : {".cgns", ".cas", ".foam", ".openfoam"}) {
-        if (has_suffix(path, known)) return "convert it with " + paraview_command(path, stem + "-grid.vtu");
-    }
+    if (has_one_of(path, {".cgns", ".cas", ".foam", ".openfoam"}))
+        return "convert it with " + paraview_command(path, stem + "-grid.vtu");
     return "name the folder of the case";
 }
 
@@ -214,22 +214,10 @@ std::string freefem_command(const std::string& path) {
 }
 
 Error other_format_error(const OtherFormat& format, const std::string& path) {
-    const auto word = [&](std::string_view name) {
-        if (name == "in") return shell_word(path);
-        if (name == "gmsh") return gmsh_command(path);
-        if (name == "stem.msh") return shell_word(stem_of(path) + ".msh");
-        if (name == "freefem") return freefem_command(path);
-        if (name == "unpacked") return shell_word(unpacked_name(path));
-        return by_paraview(path);
-    };
-    std::string remedy;
-    for (std::string_view rest = format.remedy; !rest.empty();) {
-        const std::size_t begin = std::min(rest.find('{'), rest.size()),
-                          end = std::min(rest.find('}'), rest.size() - 1);
-        remedy += rest.substr(0, begin);
-        if (begin != rest.size()) remedy += word(rest.substr(begin + 1, end - begin - 1));
-        rest.remove_prefix(begin == rest.size() ? begin : end + 1);
-    }
+    std::string remedy =
+        fmt::format(fmt::runtime(format.remedy), fmt::arg("in", shell_word(path)), fmt::arg("gmsh", gmsh_command(path)),
+                    fmt::arg("msh", shell_word(stem_of(path) + ".msh")), fmt::arg("freefem", freefem_command(path)),
+                    fmt::arg("unpacked", shell_word(unpacked_name(path))), fmt::arg("paraview", by_paraview(path)));
     const bool mesh = std::string_view(format.what).find("not a mesh") == std::string_view::npos;
     return file_error(path, std::string("this is ") + format.what + (mesh ? ", which is not read" : ""), formats_read,
                       {}, std::move(remedy));

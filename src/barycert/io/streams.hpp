@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "barycert/base/output_file.hpp"
-#include "barycert/environment.hpp"
 #include "barycert/io.hpp"
+#include "barycert/io/parallel.hpp"
 #include "barycert/mesh/columns.hpp"
 
 namespace barycert::io {
@@ -125,7 +125,7 @@ protected:
     base::OutputFile file_;
 
 private:
-    std::vector<std::vector<char>> pieces_;
+    std::vector<ByteRoom> pieces_;
     Error error_;  // rows that do not fit
 };
 

@@ -1,7 +1,6 @@
 #include <set>
 
 #include "barycert/io/formats.hpp"
-#include "barycert/io/parallel.hpp"
 #include "barycert/io/streams.hpp"
 #include "barycert/io/vtk/out_file.hpp"
 
@@ -56,13 +55,13 @@ Status RowSink::write(const TableView& rows) {
     for (std::size_t row = 0; row < count && file_.status();) {
         const std::size_t pieces = std::min(pieces_at_once, (count - row + rows_a_piece - 1) / rows_a_piece);
         if (pieces_.size() < pieces) pieces_.resize(pieces);
-        std::array<std::size_t, pieces_at_once> sizes{};
+        std::array<std::string_view, pieces_at_once> texts;
         in_parallel(pieces, [&](std::size_t i) {
             const std::size_t first = row + i * rows_a_piece, last = std::min(first + rows_a_piece, count);
-            if (pieces_[i].size() < (last - first) * longest) pieces_[i].resize((last - first) * longest);
-            sizes[i] = static_cast<std::size_t>(put_rows(rows, first, last, pieces_[i].data()) - pieces_[i].data());
+            char* const piece = pieces_[i].of((last - first) * longest);
+            texts[i] = {piece, put_rows(rows, first, last, piece)};
         });
-        for (std::size_t i = 0; i < pieces; ++i) file_.write({pieces_[i].data(), sizes[i]});
+        for (std::size_t i = 0; i < pieces; ++i) file_.write(texts[i]);
         row = std::min(count, row + pieces * rows_a_piece);
     }
     return file_.status();
@@ -72,7 +71,7 @@ Status RowSink::write(const TableView& rows) {
 
 TableSink::~TableSink() = default;
 
-Result<std::unique_ptr<TableSink>> open_table(const std::string& path, const TableFormat& format) {
+Result<std::unique_ptr<TableSink>> open_table(const std::string& path, const TableFormat& format) try {
     const ExactEnvironment environment;
     if (format.dimension != 2 && format.dimension != 3)
         return file_error(path, "points of rows can have 2 or 3 coordinates", "2 or 3",
@@ -90,11 +89,9 @@ Result<std::unique_ptr<TableSink>> open_table(const std::string& path, const Tab
         return file_error(path, "cannot write rows in the format of that suffix",
                           ".csv, .npy or .vtu, or - for CSV on the standard output",
                           kind ? "a format for points alone" : kind.error().found, "name a .csv, .npy or .vtu file");
-    try {
-        return *kind == io::FileFormat::csv ? io::open_csv_sink(path, format) : io::open_npy_sink(path, format);
-    } catch (const Exception& problem) {
-        return problem.error();
-    }
+    return *kind == io::FileFormat::csv ? io::open_csv_sink(path, format) : io::open_npy_sink(path, format);
+} catch (const Exception& problem) {
+    return problem.error();
 }
 
 }  // namespace barycert

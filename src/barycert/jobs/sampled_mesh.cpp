@@ -247,7 +247,8 @@ void SampledMesh::build_sampler(const std::vector<FieldChoice>& fields) {
 
 std::vector<FieldChoice> SampledMesh::fields_of_part() {
     std::vector<FieldChoice> fields = fields_;
-    for (FieldChoice& choice : fields) choice.field = &made_.emplace_back(part_->field(*choice.field, choice.of_cells));
+    for (FieldChoice& choice : fields)
+        choice.field = &made_.emplace_back(mesh::rows_of(*choice.field, choice.of_cells ? part_->cells : part_->nodes));
     return fields;
 }
 

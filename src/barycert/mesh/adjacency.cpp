@@ -84,8 +84,7 @@ FacetTable::FacetTable(const Mesh& mesh, std::span<const std::uint8_t> use) {
 void pair_facets(std::span<const CellFacet> equal, std::size_t corners, std::vector<Mesh::Index>& neighbours) {
     // A cell with a repeated corner holds a facet twice and is not its own neighbour.
     const CellFacet& first = equal.front();
-    const auto second =
-        std::find_if(equal.begin(), equal.end(), [&](const CellFacet& f) { return f.cell != first.cell; });
+    const auto second = std::ranges::find_if(equal, [&](const CellFacet& f) { return f.cell != first.cell; });
     if (second == equal.end()) return;
     const auto place = [&](const CellFacet& f) {
         return static_cast<std::size_t>(f.cell) * corners + static_cast<std::size_t>(f.corner);

@@ -54,18 +54,6 @@ void move_values(Column& from, std::size_t first, std::size_t count, Column& to)
         from.values);
 }
 
-void append(std::span<const Column> columns, std::vector<Column>& to) {
-    for (std::size_t i = 0; i < columns.size(); ++i) {
-        if (i == to.size()) to.push_back(empty_column({columns[i].name, columns[i].type()}));
-        std::visit(
-            [&](auto& values) {
-                const auto& more = std::get<std::decay_t<decltype(values)>>(columns[i].values);
-                values.insert(values.end(), more.begin(), more.end());
-            },
-            to[i].values);
-    }
-}
-
 namespace {
 
 /// A column of the same name and type; fill(values, new_values).
@@ -81,13 +69,6 @@ Column filled(const Column& column, const Fill& fill) {
 }
 
 }  // namespace
-
-Column part_of(const Column& column, std::size_t begin, std::size_t end) {
-    return filled(column, [&](const auto& values, auto& part) {
-        part.assign(values.begin() + static_cast<std::ptrdiff_t>(begin),
-                    values.begin() + static_cast<std::ptrdiff_t>(end));
-    });
-}
 
 Column repeated(const Column& column, std::span<const std::size_t> begin) {
     return filled(column, [&](const auto& values, auto& all) {

@@ -19,11 +19,6 @@ void begin_columns(const std::vector<ColumnFormat>& formats, std::vector<Column>
 /// Moves `count` values, from number `first` on, to the end of `to`, of the same type. `from` is not to be read there.
 void move_values(Column& from, std::size_t first, std::size_t count, Column& to);
 
-/// Copies the values of columns to the end of those of `to`, of the same formats, which are made where there are none.
-void append(std::span<const Column> columns, std::vector<Column>& to);
-
-Column part_of(const Column& column, std::size_t begin, std::size_t end);
-
 /// Copies of the values, each as often as it has rows: value i has the rows begin[i] to begin[i + 1] - 1.
 Column repeated(const Column& column, std::span<const std::size_t> begin);
 

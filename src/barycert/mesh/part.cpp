@@ -5,14 +5,11 @@
 #include <span>
 
 namespace barycert::mesh {
+
 Field rows_of(const Field& whole, const std::vector<Mesh::Index>& rows) {
     Field field{whole.name, whole.components, {}};
     append_rows_of(whole.data, static_cast<std::size_t>(whole.components), rows, field.data);
     return field;
-}
-
-Field Part::field(const Field& whole, bool of_cells) const {
-    return rows_of(whole, of_cells ? cells : nodes);
 }
 
 Part part_of(const Mesh& mesh, std::vector<Mesh::Index> cells) {

@@ -22,9 +22,6 @@ struct Part {
     Mesh mesh;                       ///< points, cells and mid-edge nodes alone, in their order; no fields
     std::vector<Mesh::Index> cells;  ///< of the whole mesh, by cell of the part
     std::vector<Mesh::Index> nodes;  ///< likewise
-
-    /// The values of the part, of a field whose values are those of cells or else nodes.
-    Field field(const Field& whole, bool of_cells) const;
 };
 
 /// Precondition: `cells` are cells of the mesh, ascending, and the mesh is consistent as far as these are concerned.

@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "barycert/base/arena.hpp"
+#include "barycert/mesh/cell_types.hpp"
 #include "barycert/mesh/columns.hpp"
 #include "barycert/mesh/part.hpp"
 
@@ -14,6 +15,23 @@ namespace barycert::mesh {
 namespace {
 
 using Index = Mesh::Index;
+
+constexpr auto known_shapes = [] {
+    std::array<Shape, 72> all{};
+    all[vtk_triangle] = all[vtk_quadratic_triangle] = all[69] = {2, 3, "012"};
+    all[vtk_triangle_strip] = all[vtk_polygon] = {2, 0, {}};
+    all[8] = {2, 4, "0132"};
+    all[vtk_quad] = {2, 4, "0123"};
+    all[vtk_tetra] = all[vtk_quadratic_tetra] = all[71] = {3, 4, "013 123 203 021"};
+    all[11] = {3, 8, "0462 1375 0154 2673 0231 4576"};
+    all[12] = {3, 8, "0473 1265 0154 3762 0321 4567"};
+    all[13] = {3, 6, "012 354 0341 1452 2530"};
+    all[14] = {3, 5, "0321 014 124 234 304"};
+    all[15] = {3, 10, "04321 56789 0165 1276 2387 3498 4059"};
+    all[16] = {3, 12, "054321 6789ab 0176 1287 2398 34a9 45ba 506b"};
+    all[vtk_polyhedron] = {3, 0, {}};
+    return all;
+}();
 
 /// The parts of a cell, by the places of their nodes among its own.
 struct Parts {
@@ -52,8 +70,7 @@ public:
         for (std::size_t first = 0; first < rings_.size(); ++first) {
             if (known[first] != 0) continue;
             known[first] = 1;
-            next.push_back(first);
-            while (!next.empty()) {
+            for (next = {first}; !next.empty();) {
                 const std::size_t own = next.back();
                 next.pop_back();
                 for (std::size_t i = 0; i < rings_[own].size(); ++i) {
@@ -127,10 +144,10 @@ template <class Rank>
 Parts cut_polygon(std::uint8_t type, std::vector<Index> nodes, Rank rank) {
     Parts parts;
     const std::size_t n = nodes.size();
-    if (type != strip) nodes = from_lowest(std::move(nodes), rank);
+    if (type != vtk_triangle_strip) nodes = from_lowest(std::move(nodes), rank);
     for (std::size_t i = 1; i + 1 < n; ++i) {
         const bool first = i == 1, last = i + 2 == n;
-        if (type == strip) {
+        if (type == vtk_triangle_strip) {
             // Every other triangle is turned.
             const std::size_t odd = (i + 1) % 2;
             parts.corners.push_back({nodes[i - 1 + odd], nodes[i - odd], nodes[i + 1], -1});
@@ -164,7 +181,7 @@ public:
         if (is_curved_simplex(type)) nodes = nodes.first(mesh_.corners());
         const auto& of_type = rings_of(type);
         any_ = nodes.empty() ? 0 : nodes.front();
-        if (type == polyhedron) return cut_rings(cell, rings_of_polyhedron(cell), true);
+        if (type == vtk_polyhedron) return cut_rings(cell, rings_of_polyhedron(cell), true);
         if (mesh_.dimension == 2 && of_type.empty()) {
             const auto own = [](Index node) { return node; };
             return add(cut_polygon(type, {nodes.begin(), nodes.end()}, own), own);
@@ -178,11 +195,8 @@ public:
             if (nodes[i] < rank(apex)) apex = static_cast<Index>(i);
             for (std::size_t j = 0; j < i; ++j) twice |= nodes[i] == nodes[j];
         }
-        for (const auto& ring : of_type) {
-            std::size_t lowest = 0;
-            for (std::size_t i = 1; i < ring.size(); ++i) lowest = rank(ring[i]) < rank(ring[lowest]) ? i : lowest;
-            key = key << 3U | lowest;
-        }
+        for (const auto& ring : of_type)
+            key = key << 3U | static_cast<std::uint64_t>(std::ranges::min_element(ring, {}, rank) - ring.begin());
         if (twice) {
             std::vector<std::vector<Index>> rings = of_type;
             for (auto& ring : rings) std::ranges::transform(ring, ring.begin(), rank);
@@ -255,48 +269,15 @@ private:
 }  // namespace
 
 Shape shape_of(std::uint8_t type) {
-    switch (type) {
-        case 5:
-        case 22:
-        case 69:
-            return {2, 3, "012"};
-        case strip:
-        case 7:
-            return {2, 0, {}};
-        case 8:
-            return {2, 4, "0132"};
-        case 9:
-            return {2, 4, "0123"};
-        case 10:
-        case 24:
-        case 71:
-            return {3, 4, "013 123 203 021"};
-        case 11:
-            return {3, 8, "0462 1375 0154 2673 0231 4576"};
-        case 12:
-            return {3, 8, "0473 1265 0154 3762 0321 4567"};
-        case 13:
-            return {3, 6, "012 354 0341 1452 2530"};
-        case 14:
-            return {3, 5, "0321 014 124 234 304"};
-        case 15:
-            return {3, 10, "04321 56789 0165 1276 2387 3498 4059"};
-        case 16:
-            return {3, 12, "054321 6789ab 0176 1287 2398 34a9 45ba 506b"};
-        case polyhedron:
-            return {3, 0, {}};
-        default:
-            return {};
-    }
+    return type < known_shapes.size() ? known_shapes[type] : Shape();
 }
 
 const std::vector<std::vector<Index>>& rings_of(std::uint8_t type) {
     static const auto all = [] {
-        std::array<std::vector<std::vector<Index>>, 72> types;
+        std::array<std::vector<std::vector<Index>>, known_shapes.size()> types;
         for (std::size_t i = 0; i < types.size(); ++i) {
-            const std::string_view faces = shape_of(static_cast<std::uint8_t>(i)).faces;
-            if (!faces.empty()) types[i].emplace_back();
-            for (const char c : faces) {
+            if (!known_shapes[i].faces.empty()) types[i].emplace_back();
+            for (const char c : known_shapes[i].faces) {
                 if (c == ' ')
                     types[i].emplace_back();
                 else

@@ -9,16 +9,12 @@
 #include <array>
 #include <bit>
 #include <optional>
-#include <span>
 #include <string_view>
 
 #include "barycert/mesh.hpp"
 #include "barycert/simplex.hpp"
 
 namespace barycert::mesh {
-
-/// VTK's number of the type of polyhedra, and of strips.
-inline constexpr std::uint8_t polyhedron = 42, strip = 6;
 
 struct Shape {
     int dimension = 0;            ///< 2, 3; 0: none that can be cut

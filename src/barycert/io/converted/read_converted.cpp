@@ -269,20 +269,18 @@ Mesh checked(const Json& answer, const MeshioFile& file, const std::string& path
 
 }  // namespace
 
-Result<Mesh> read_converted(const std::string& path, const std::string& format) {
-    try {
-        const MeshioFile file = run_meshio(path, format);
-        return checked(Json::parse(file.answer), file, path, format);
-    } catch (const Exception& problem) {
-        return problem.error();
-    } catch (const Json::exception&) {
-        return file_error(path, "meshio gave no answer that can be read");
-    }
+Result<Mesh> read_converted(const std::string& path, const std::string& format) try {
+    const MeshioFile file = run_meshio(path, format);
+    return checked(Json::parse(file.answer), file, path, format);
+} catch (const Exception& problem) {
+    return problem.error();
+} catch (const Json::exception&) {
+    return file_error(path, "meshio gave no answer that can be read");
 }
 
 std::vector<std::string> converted_files(const std::string& path) {
     std::vector<std::string> files{path};
-    std::filesystem::path beside(path);
+    std::filesystem::path beside(without_gz(path));
     for (const char* suffix : {".h5", ".bin"}) {
         beside.replace_extension(suffix);
         if (beside != path && exists(beside.string())) files.push_back(beside.string());

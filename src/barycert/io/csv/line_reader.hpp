@@ -5,7 +5,6 @@
 
 #include "barycert/base/descriptor.hpp"
 #include "barycert/base/input_file.hpp"
-#include "barycert/result.hpp"
 
 namespace barycert::io {
 

@@ -59,8 +59,6 @@ void take_line(std::string_view line, bool whole, const CsvLayout& layout, const
     if (cut) throw Exception(base::unended_number(place.file, place.line));
 }
 
-/// Adds the data of the column of that name or number (from 1), or of the columns NAME.0, NAME.1, ... The first line
-/// settles the separator as in files of points.
 Field read_csv_column(Field field, const std::string& path, const std::string& column) {
     LineReader lines(path);
     std::optional<CsvLayout> layout;

@@ -35,20 +35,13 @@ constexpr std::array<std::string_view, 8> family_names{"point",       "line",   
 
 /// "8 points, 120 lines": of types whose dimension is at least `low` and at most `high`.
 std::string counted_types(const TypeCounts& counts, int low, int high) {
-    std::string text;
-    for (const ElementType& type : element_types) {
+    return base::joined(element_types, ", ", [&](const ElementType& type) {
         const std::size_t count = counts[static_cast<std::size_t>(type.number)];
-        if (count == 0 || type.dimension() < low || type.dimension() > high) continue;
+        if (count == 0 || type.dimension() < low || type.dimension() > high) return std::string();
         std::string name(family_names[static_cast<std::size_t>(type.family)]);
-        if (count != 1 && name.ends_with("on")) {
-            name.replace(name.size() - 2, 2, "a");
-        } else if (count != 1) {
-            name += 's';
-        }
-        text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + name;
-        if (type.order > 1) text += " of order " + std::to_string(type.order);
-    }
-    return text;
+        if (count != 1) name.ends_with("on") ? name.replace(name.size() - 2, 2, "a") : name += 's';
+        return std::to_string(count) + " " + name + (type.order > 1 ? " of order " + std::to_string(type.order) : "");
+    });
 }
 
 std::vector<const ElementType*> choose(const MshFile& file, const TypeCounts& counts) {
@@ -180,9 +173,10 @@ std::vector<std::size_t> kept_places(const ElementType& type) {
 void read_shapes(const Target& to, std::span<const Run> runs) {
     Mesh::Shapes& shapes = to.cells.mesh.shapes;
     constexpr std::array<std::uint8_t, 8> linear_types{0, 0, 5, 9, 10, 12, 13, 14};  // VTK's
+    std::map<const ElementType*, std::vector<std::size_t>> kept;
     for (const Run& run : runs) {
         const ElementType& own = *to.elements.blocks[run.id].type;
-        const bool whole = !kept_places(own).empty();
+        const bool whole = !kept.try_emplace(&own, kept_places(own)).first->second.empty();
         const std::uint8_t linear = linear_types[static_cast<std::size_t>(own.family)],
                            curved = own.dimension() == 3 ? 71 : 69, type = whole ? curved : linear;
         const auto corners = static_cast<std::int64_t>(whole ? own.nodes : mesh::shape_of(type).corners);
@@ -191,9 +185,6 @@ void read_shapes(const Target& to, std::span<const Run> runs) {
             shapes.ends.push_back((shapes.ends.empty() ? 0 : shapes.ends.back()) + corners);
     }
     shapes.nodes.resize(static_cast<std::size_t>(shapes.ends.back()));
-    std::map<const ElementType*, std::vector<std::size_t>> kept;
-    for (const Run& run : runs)
-        kept.try_emplace(to.elements.blocks[run.id].type, kept_places(*to.elements.blocks[run.id].type));
     parse_runs(to.file, "Elements", runs, [&](auto& row, const Run& run, std::size_t i) {
         const ElementBlock& block = to.elements.blocks[run.id];
         if (!to.take_head_of(row, block, i)) return false;

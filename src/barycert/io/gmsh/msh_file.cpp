@@ -196,11 +196,10 @@ WordIndex::WordIndex(std::string_view text, int threads) : text_(text) {
     std::vector<std::vector<const char*>> marks(pieces);
     base::share_work(threads, pieces, [&](std::size_t i) {
         const std::string_view part = text.substr(i * text_piece, text_piece);
-        const char *at = part.data(), *const end = at + part.size();
-        before_[i + 1] = count_words(at + (i == 0 ? 1 : 0), end);
-        while ((at = static_cast<const char*>(std::memchr(at, '$', static_cast<std::size_t>(end - at)))) != nullptr) {
-            if (at == text.data() || at[-1] == '\n') marks[i].push_back(at);
-            ++at;
+        const char* const at = part.data();
+        before_[i + 1] = count_words(at + (i == 0 ? 1 : 0), at + part.size());
+        for (std::size_t k = part.find('$'); k != std::string_view::npos; k = part.find('$', k + 1)) {
+            if (at + k == text.data() || (at + k)[-1] == '\n') marks[i].push_back(at + k);
         }
         return true;
     });

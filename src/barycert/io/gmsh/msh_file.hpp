@@ -67,7 +67,6 @@ public:
     bool swapped() const { return swapped_; }  ///< binary, of the other byte order
     int threads() const { return threads_; }
     const WordIndex& words() const { return words_; }  ///< of text
-    std::string_view bytes() const { return bytes_; }
     const char* end() const { return bytes_.data() + bytes_.size(); }
 
     const std::vector<MshSection>& sections() const { return sections_; }

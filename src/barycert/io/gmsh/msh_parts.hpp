@@ -135,8 +135,7 @@ std::vector<MshView> find_msh_views(const MshFile& file);
 struct ViewTargets {
     const TagIndex& index;
     std::size_t count;  ///< of nodes or cells
-    const char* one;    ///< "node"
-    const char* many;   ///< "nodes"
+    std::string one;    ///< "node"
 };
 
 /// Appends a field for each name among these views, and notes what is missing. `step`: of each; not set: its first.

@@ -103,7 +103,7 @@ public:
         if (placed_ != targets_.count)
             note(Note::Kind::guessed,
                  "NaN for the values of " + name + " at " + std::to_string(targets_.count - placed_) + " of " +
-                     std::to_string(targets_.count) + " " + targets_.many + ", which have none",
+                     std::to_string(targets_.count) + " " + targets_.one + "s, which have none",
                  true);
         fields.push_back(std::move(field_));
     }

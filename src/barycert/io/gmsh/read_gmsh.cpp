@@ -74,7 +74,6 @@ void take_entity(Walk& walk, std::int64_t dimension, int reals, bool parts, MshG
     if (!entity.physical.empty() || entity.whole != tag) groups.entities[{dimension, tag}] = std::move(entity);
 }
 
-/// `parts`: of $PartitionedEntities.
 void take_entities(const MshFile& file, const MshSection& section, bool parts, MshGroups& groups) {
     Walk walk(file, section);
     if (parts) {
@@ -236,7 +235,7 @@ Mesh read_whole(const MshFile& file, const GmshReadOptions& options, InSpace* sp
         mesh.points = to_points(std::move(mesh.points), 2, file.path(),
                                 mesh.mid_nodes.empty() && mesh.shapes.types.empty() ? file.path() : "", "node", space);
     note_cells(cells, groups.partitioned, file.path());
-    read_msh_fields(file, views, MshView::Of::nodes, {nodes.index, mesh.point_count(), "node", "nodes"}, options.step,
+    read_msh_fields(file, views, MshView::Of::nodes, {nodes.index, mesh.point_count(), "node"}, options.step,
                     mesh.point_fields, mesh.notes);
     if (std::any_of(views.begin(), views.end(), [](const MshView& v) { return v.of == MshView::Of::elements; })) {
         const TagIndex index(cells.tags);
@@ -245,7 +244,7 @@ Mesh read_whole(const MshFile& file, const GmshReadOptions& options, InSpace* sp
                         "two cells with the tag " + std::to_string(cells.tags[*twice]),
                         "each tag once, for $ElementData refers to them",
                         "it again at cell " + std::to_string(*twice) + " from 0", "give each element a tag of its own");
-        read_msh_fields(file, views, MshView::Of::elements, {index, mesh.whole_count(), "cell", "cells"}, options.step,
+        read_msh_fields(file, views, MshView::Of::elements, {index, mesh.whole_count(), "cell"}, options.step,
                         mesh.cell_fields, mesh.notes);
     }
     label_cells(file, elements, groups, cells);

@@ -35,10 +35,6 @@ std::optional<std::vector<std::int32_t>> integers(const Field& field) {
     return values;
 }
 
-bool all_are(const std::vector<std::int32_t>& values, std::int32_t value) {
-    return std::all_of(values.begin(), values.end(), [&](std::int32_t v) { return v == value; });
-}
-
 template <class T>
 const std::vector<T>* find_label(const Mesh& mesh, const char* name) {
     for (const Column& column : mesh.cell_labels) {
@@ -94,7 +90,10 @@ CellGroups group_cells(const Mesh& mesh, bool by_entity, const std::string& path
         const auto field = std::ranges::find(mesh.cell_fields, name, &Field::name);
         if (field == mesh.cell_fields.end() || field->components != 1) return nullptr;
         auto values = integers(*field);
-        if (!values || all_are(*values, 0) || all_are(*values, nothing)) return nullptr;
+        const auto all_are = [&](std::int32_t value) {
+            return std::ranges::count(*values, value) == std::ssize(*values);
+        };
+        if (!values || all_are(0) || all_are(nothing)) return nullptr;
         to = std::move(*values);
         return &*field;
     };

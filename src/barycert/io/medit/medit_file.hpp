@@ -13,8 +13,6 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "barycert/io/formats.hpp"
-#include "barycert/io/parallel.hpp"
 #include "barycert/io/vtk/raw_grid.hpp"
 
 namespace barycert::io::medit {
@@ -107,25 +105,16 @@ const MeditKeyword* find_keyword(const IsOne& is_one) {
 
 /// Takes the text up to the next keyword, and that, off `text`; empty: none is left. Quoted names, nan, inf are none.
 inline std::string_view next_keyword(std::string_view& text) {
-    for (std::size_t i = 0; i < text.size();) {
-        const auto letter = static_cast<unsigned char>((text[i] | 0x20) - 'a');
-        if (is_white(text[i])) {
-            ++i;
-            continue;
+    const char* const end = text.data() + text.size();
+    for (std::string_view word = next_word(text); !word.empty(); word = next_word(text)) {
+        const auto letter = static_cast<unsigned char>((word[0] | 0x20) - 'a');
+        if (word[0] == '"') {
+            text = {word.data() + 1, end};
+            text.remove_prefix(std::min(text.find('"'), text.size() - 1) + 1);
+        } else if (letter < 26 && !same_word(word, "nan") && !same_word(word, "inf") && !same_word(word, "infinity")) {
+            return word;
         }
-        if (text[i] == '"') {
-            i = std::min(text.find('"', i + 1), text.size() - 1) + 1;
-            continue;
-        }
-        const std::size_t begin = i;
-        while (i < text.size() && !is_white(text[i])) ++i;
-        if (letter >= 26) continue;
-        const std::string_view word = text.substr(begin, i - begin);
-        if (same_word(word, "nan") || same_word(word, "inf") || same_word(word, "infinity")) continue;
-        text.remove_prefix(i);
-        return word;
     }
-    text.remove_prefix(text.size());
     return text;
 }
 

@@ -81,10 +81,6 @@ public:
     }
 
 private:
-    [[noreturn]] void refuse(std::string what, std::string expected, std::string found, std::string remedy) const {
-        refuse_file(file_.path(), std::move(what), std::move(expected), std::move(found), std::move(remedy));
-    }
-
     void note(Note::Kind kind, std::string text, bool important = false) {
         mesh_.notes.push_back({kind, std::move(text), file_.path(), important});
     }
@@ -102,15 +98,17 @@ private:
             (found.empty() || dimension == found.front()->keyword.dimension ? found : lower_).push_back(&section);
         }
         if (nodes_ == nullptr || found.empty() || found.front()->keyword.dimension < 2)
-            refuse("the file contains no mesh", "Vertices, and Tetrahedra, Hexahedra, Triangles or the like",
-                   file_.sections().empty() ? "nothing" : file_.sections().front().name,
-                   "name a file with a mesh; the fields of a .sol file go with --field NAME=FILE");
+            refuse_file(file_.path(), "the file contains no mesh",
+                        "Vertices, and Tetrahedra, Hexahedra, Triangles or the like",
+                        file_.sections().empty() ? "nothing" : file_.sections().front().name,
+                        "name a file with a mesh; the fields of a .sol file go with --field NAME=FILE");
         cells_ = found.front();
         mesh_.dimension = cells_->keyword.dimension;
         const MeditKeyword& keyword = cells_->keyword;
         if (found.size() > 1 || !(is_simplex(keyword, 1) || is_simplex(keyword, 2))) shapes_ = std::move(found);
         if (mesh_.dimension > file_.dimension())
-            refuse("cells in space, and nodes in the plane", "Dimension 3", "Dimension 2", "mend the dimension");
+            refuse_file(file_.path(), "cells in space, and nodes in the plane", "Dimension 3", "Dimension 2",
+                        "mend the dimension");
     }
 
     void read_nodes() {
@@ -166,16 +164,13 @@ private:
     Cells take_shapes() {
         Cells all;
         std::size_t by_corners = 0;
-        Mesh::Shapes& shapes = mesh_.shapes;
         for (const MeditSection* const section : shapes_) {
             const std::uint8_t type = section->keyword.type;
             const std::size_t corners = mesh::shape_of(type).corners;
             const Cells own = take(*section, corners);
             if (section->keyword.nodes != corners) by_corners += section->count;
-            shapes.types.insert(shapes.types.end(), section->count, type);
-            for (std::size_t i = 1; i <= section->count; ++i)
-                shapes.ends.push_back(static_cast<std::int64_t>(shapes.nodes.size() + i * corners));
-            shapes.nodes.insert(shapes.nodes.end(), own.corners.begin(), own.corners.end());
+            for (std::size_t i = 0; i < section->count; ++i)
+                mesh::add_shape(mesh_, type, std::span(own.corners).subspan(i * corners, corners));
             all.references.insert(all.references.end(), own.references.begin(), own.references.end());
         }
         note_by_corners(by_corners, file_.path(), mesh_.notes);
@@ -197,9 +192,9 @@ private:
         if (mesh_.mid_nodes.empty()) return;
         const std::optional<mesh::MidEdgeVote> vote = mesh::detect_mid_edge_order(mesh_);
         if (!vote)
-            refuse("the order of the mid-edge nodes is unknown",
-                   "each near the middle of its edge, in the order 12 23 13 14 24 34, or that of TetGen or Gmsh",
-                   "another order in most cells", "write the mesh again with cells of order 1");
+            refuse_file(file_.path(), "the order of the mid-edge nodes is unknown",
+                        "each near the middle of its edge, in the order 12 23 13 14 24 34, or that of TetGen or Gmsh",
+                        "another order in most cells", "write the mesh again with cells of order 1");
         // Where no cell tells it, as libMeshb documents it.
         mesh_.mid_edge_order = vote->guessed ? MidEdgeOrder::vtk : vote->order;
         if (vote->guessed)
@@ -239,7 +234,7 @@ private:
     /// Fields in a file of their own are read where they are named.
     void note_solution_beside() {
         for (const char* suffix : {".sol", ".solb"}) {
-            const std::string path = std::filesystem::path(file_.path()).replace_extension(suffix).string();
+            const std::string path = std::filesystem::path(without_gz(file_.path())).replace_extension(suffix).string();
             if (exists(path))
                 note(Note::Kind::left_out, "the fields of " + path + ", unless it is named: --field NAME=" + path);
         }

@@ -27,20 +27,14 @@ std::string as_literal(std::string_view name) {
     return text + "'";
 }
 
-/// How a carried column stands in the file: NumPy's name of the type, and the bytes in a row.
-struct CarriedType {
-    std::string descr = "<f8";
-    std::size_t size = 8;
-    bool characters = false;  ///< a text of these, of 4 bytes each, else of bytes
-};
-
-CarriedType type_of(const ColumnFormat& column) {
-    if (column.type == Column::Type::integer) return {"<i8"};
-    if (column.type == Column::Type::number) return {};
+NpyType type_of(const ColumnFormat& column) {
+    if (column.type == Column::Type::integer) return {'i', 8, false, "<i8"};
+    if (column.type == Column::Type::number) return {'f', 8, false, "<f8"};
     // NumPy has no texts of length zero that every function takes.
     const bool characters = column.max_characters != 0;
     const std::size_t length = std::max<std::size_t>(1, characters ? column.max_characters : column.max_bytes);
-    return {(characters ? "<U" : "|S") + std::to_string(length), length * (characters ? 4 : 1), characters};
+    if (characters) return {'U', 4 * length, false, "<U" + std::to_string(length)};
+    return {'S', length, false, "|S" + std::to_string(length)};
 }
 
 char* put(char* at, std::uint64_t bits) {
@@ -49,18 +43,18 @@ char* put(char* at, std::uint64_t bits) {
     return at + sizeof bits;
 }
 
-bool holds(const CarriedType& type, std::string_view text) {
+bool holds(const NpyType& type, std::string_view text) {
     if (text.ends_with('\0')) return false;
-    if (!type.characters) return text.size() <= type.size;
+    if (type.kind == 'S') return text.size() <= type.size;
     const std::ptrdiff_t count = mesh::count_characters(text);
     return count >= 0 && static_cast<std::size_t>(count) <= type.size / 4;
 }
 
 /// Writes the text, with zeros behind it; the place after it. Precondition: it fits.
-char* put(char* at, const CarriedType& type, std::string_view text) {
+char* put(char* at, const NpyType& type, std::string_view text) {
     char* const end = at + type.size;
-    if (!type.characters) at = std::copy(text.begin(), text.end(), at);
-    for (; type.characters && !text.empty(); at += 4) {
+    if (type.kind == 'S') at = std::copy(text.begin(), text.end(), at);
+    for (; type.kind == 'U' && !text.empty(); at += 4) {
         const auto [code, bytes] = base::first_character(text);
         text.remove_prefix(bytes);
         for (std::size_t i = 0; i < 4; ++i) at[i] = static_cast<char>(code >> 8 * i & 0xFFU);
@@ -115,7 +109,7 @@ private:
         row_size_ = 8 * fields.size();  // each has 8 bytes
         for (const ColumnFormat& column : format_.carried) {
             carried_.push_back(type_of(column));
-            fields.push_back({column.name, carried_.back().descr});
+            fields.push_back({column.name, carried_.back().text});
             row_size_ += carried_.back().size;
         }
         std::set<std::string> seen;
@@ -138,13 +132,13 @@ private:
         for (std::size_t k = 0; k < carried_.size(); ++k) {
             const auto* const texts = std::get_if<std::vector<std::string>>(&rows.carried[k].values);
             if (texts == nullptr) continue;
-            const CarriedType& type = carried_[k];
+            const NpyType& type = carried_[k];
             for (const std::string& text : *texts) {
                 if (holds(type, text)) continue;
                 return file_error(
                     path_, "a text of column " + base::quoted(format_.carried[k].name) + " does not fit the file",
-                    std::to_string(type.size / (type.characters ? 4 : 1)) +
-                        (type.characters ? " characters of UTF-8" : " bytes") +
+                    (type.kind == 'U' ? std::to_string(type.size / 4) + " characters of UTF-8"
+                                      : std::to_string(type.size) + " bytes") +
                         " at most, as the column was told, and no zero byte at its end",
                     base::quoted(text), "write CSV");
             }
@@ -173,7 +167,7 @@ private:
     std::string types_;          // the descr of the header
     std::size_t head_size_ = 0;  // with room for any count
     std::size_t row_size_ = 0;
-    std::vector<CarriedType> carried_;
+    std::vector<NpyType> carried_;
     std::uint64_t count_ = 0;
     std::array<std::array<char, feature_size>, feature_count> features_{};  // as they stand in the file
 };

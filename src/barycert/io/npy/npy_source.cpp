@@ -3,7 +3,6 @@
 #include "barycert/base/finite.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/npy/npy.hpp"
-#include "barycert/io/parallel.hpp"
 #include "barycert/io/streams.hpp"
 
 namespace barycert::io {

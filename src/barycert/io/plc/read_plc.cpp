@@ -7,9 +7,9 @@
 namespace barycert::io {
 namespace {
 
-/// STEM.node, where the nodes of STEM.poly and STEM.smesh may be.
+/// STEM.node, or STEM.node.gz, where the nodes of STEM.poly and STEM.smesh may be.
 std::string node_path_of(const std::string& path) {
-    return std::filesystem::path(path).replace_extension(".node").string();
+    return plain_or_packed(std::filesystem::path(without_gz(path)).replace_extension(".node").string());
 }
 
 /// Appends nodes: their header and then their rows. False: the header tells that they stand in a file of their own.
@@ -145,26 +145,24 @@ namespace barycert {
 using namespace io;
 
 std::vector<std::string> plc_files(const std::string& path) {
-    const std::filesystem::path p(path);
+    const std::filesystem::path p(io::without_gz(path));
     if (p.extension() != ".poly" && p.extension() != ".smesh") return {path};
     return {path, node_path_of(path)};
 }
 
-Result<Plc> read_plc(const std::string& path) {
+Result<Plc> read_plc(const std::string& path) try {
     const ExactEnvironment environment;
     const std::string extension = std::filesystem::path(without_gz(path)).extension().string();
     if (std::find(plc_extensions.begin(), plc_extensions.end(), extension) == plc_extensions.end())
         return file_error(path, "unknown kind of PLC", "one of .poly .smesh .off .stl .ply .obj",
                           extension.empty() ? "no extension" : extension);
-    try {
-        const bool smesh = extension == ".smesh";
-        Plc plc = smesh || extension == ".poly" ? read_poly(path, smesh) : plc_of(read_polygons(path));
-        if (plc.facets.empty()) return file_error(path, "nothing to mesh: the PLC has no facets");
-        if (plc.point_count() < 4) return file_error(path, "nothing to mesh: a PLC needs four nodes");
-        return plc;
-    } catch (const Exception& problem) {
-        return problem.error();
-    }
+    const bool smesh = extension == ".smesh";
+    Plc plc = smesh || extension == ".poly" ? read_poly(path, smesh) : plc_of(read_polygons(path));
+    if (plc.facets.empty()) return file_error(path, "nothing to mesh: the PLC has no facets");
+    if (plc.point_count() < 4) return file_error(path, "nothing to mesh: a PLC needs four nodes");
+    return plc;
+} catch (const Exception& problem) {
+    return problem.error();
 }
 
 }  // namespace barycert

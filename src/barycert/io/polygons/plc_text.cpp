@@ -94,9 +94,8 @@ std::string read_surface_text(const std::string& path, const std::function<void(
         const Status read = status_of([&] { check(in); });
         return in.rest().empty() ? Status(Done{}) : read;
     };
-    const bool text_is_certain = !binary && !has_suffix(path, ".stl");
-    std::string text = text_is_certain ? base::read_file(path, base::longest_pipe, base::Text::all, header).value()
-                                       : base::read_file(path, base::longest_pipe, base::Text::none).value();
+    const base::Text certain = binary || has_suffix(path, ".stl") ? base::Text::none : base::Text::all;
+    std::string text = base::read_file(path, base::longest_pipe, certain, header).value();
     if (text.empty()) refuse_file(path, "cannot read", "a PLC", "an empty file");
     if (const OtherFormat* packed = packed_format(text); packed != nullptr)
         throw Exception(other_format_error(*packed, path));

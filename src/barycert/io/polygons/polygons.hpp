@@ -70,10 +70,6 @@ struct Polygons {
     std::size_t corners_of(std::size_t polygon) const { return counts.empty() ? 3 : counts[polygon]; }
 };
 
-Polygons read_off(PlcText& in);
-Polygons read_obj(PlcText& in);
-/// Text or binary. Corners of equal coordinates are one point, numbered as they first come.
-Polygons read_stl(PlcText& in);
 /// Text or binary, with fields of points and polygons: properties that are numbers, but for coordinates.
 Polygons read_ply(PlcText& in);
 

@@ -83,13 +83,11 @@ Polygons read_binary(const std::string& path, std::string_view bytes) {
     return std::move(soup.all);
 }
 
-}  // namespace
-
-bool is_binary_surface(std::string_view path, std::string_view beginning, std::size_t size) {
-    if (has_suffix(path, ".stl")) return is_binary(beginning, size, std::string(path));
-    return has_suffix(path, ".ply") && beginning.substr(0, 200).find("\nformat binary") != std::string_view::npos;
+std::string nodes_of(std::size_t count) {
+    return count == 0 ? "none, as there are no nodes" : "0 to " + std::to_string(count - 1);
 }
 
+/// Text or binary. Corners of equal coordinates are one point, numbered as they first come.
 Polygons read_stl(PlcText& in) {
     const std::string_view bytes = in.rest();
     if (is_binary(bytes, bytes.size(), in.path())) return read_binary(in.path(), bytes);
@@ -108,21 +106,6 @@ Polygons read_stl(PlcText& in) {
     }
     if (!ended || soup.all.corners.size() % 3 != 0) in.fail("the file is truncated", "endsolid", "the end of the file");
     return std::move(soup.all);
-}
-
-std::string nodes_of(std::size_t count) {
-    return count == 0 ? "none, as there are no nodes" : "0 to " + std::to_string(count - 1);
-}
-
-void check_corners(PlcText& in, Polygons& all) {
-    if (all.corners.empty()) return;
-    const auto [low, high] = std::ranges::minmax(all.corners);
-    if (low >= 0 && static_cast<std::size_t>(high) < all.point_count()) return;
-    // A file that never uses 0 and does use the count of its points numbers from 1.
-    if (low < 1 || static_cast<std::size_t>(high) > all.point_count())
-        in.fail("no such node", nodes_of(all.point_count()), std::to_string(low < 0 ? low : high));
-    all.index_base = 1;
-    for (Mesh::Index& corner : all.corners) --corner;
 }
 
 /// Shape of the file: OFF, the counts of points, polygons and edges, then a line for each point and each polygon.
@@ -182,6 +165,24 @@ Polygons read_obj(PlcText& in) {
     const std::string list = base::joined(others, " ", std::identity());
     if (!list.empty()) all.notes.push_back({Note::Kind::left_out, "lines other than v and f: " + list, in.path()});
     return all;
+}
+
+}  // namespace
+
+bool is_binary_surface(std::string_view path, std::string_view beginning, std::size_t size) {
+    if (has_suffix(path, ".stl")) return is_binary(beginning, size, std::string(path));
+    return has_suffix(path, ".ply") && beginning.substr(0, 200).find("\nformat binary") != std::string_view::npos;
+}
+
+void check_corners(PlcText& in, Polygons& all) {
+    if (all.corners.empty()) return;
+    const auto [low, high] = std::ranges::minmax(all.corners);
+    if (low >= 0 && static_cast<std::size_t>(high) < all.point_count()) return;
+    // A file that never uses 0 and does use the count of its points numbers from 1.
+    if (low < 1 || static_cast<std::size_t>(high) > all.point_count())
+        in.fail("no such node", nodes_of(all.point_count()), std::to_string(low < 0 ? low : high));
+    all.index_base = 1;
+    for (Mesh::Index& corner : all.corners) --corner;
 }
 
 Polygons read_polygons(const std::string& path) {

@@ -1,5 +1,7 @@
 #include "barycert/io/polygons/triangles.hpp"
 
+#include "barycert/mesh/part.hpp"
+
 namespace barycert::io {
 namespace {
 
@@ -87,13 +89,8 @@ Surface surface_of(Polygons polygons, const std::string& path) {
             add(surface, i, cut);
             corner = end;
         }
+        for (Field& field : polygons.cell_fields) field = mesh::rows_of(field, surface.facets);
         settle(surface, polygons.count());
-        for (Field& field : polygons.cell_fields) {
-            std::vector<double> rows;
-            for (std::size_t c = 0; c < surface.cell_count(); ++c)
-                rows.push_back(field.data[static_cast<std::size_t>(surface.facet(static_cast<Mesh::Index>(c)))]);
-            field.data = std::move(rows);
-        }
     }
     surface.points = std::move(polygons.points);
     surface.point_fields = std::move(polygons.point_fields);

@@ -10,13 +10,11 @@ template <class... Parts>
 
 /// "5 columns: id, 3 coordinates, 1 marker".
 std::string described_columns(const TextTable& table) {
-    std::string text;
-    for (const Columns& columns : table.columns) {
-        if (columns.count == 0) continue;
-        text += text.empty() ? ": " : ", ";
-        text += columns.kind == ColumnKind::id ? columns.name : base::counted(columns.count, columns.name);
-    }
-    return base::counted(table.column_count(), "column") + text;
+    const auto described = [](const Columns& columns) {
+        if (columns.count == 0) return std::string();
+        return columns.kind == ColumnKind::id ? columns.name : base::counted(columns.count, columns.name);
+    };
+    return base::counted(table.column_count(), "column") + ": " + base::joined(table.columns, ", ", described);
 }
 
 /// Digits, and nothing but digits and what else is allowed.
@@ -123,8 +121,7 @@ Complaint about_real(std::string_view field, const std::string& finite, const st
 std::vector<std::string_view> fields_of_line(const TextTable& table, const char* at) {
     const std::string_view bytes = table.bytes;
     const auto place = static_cast<std::size_t>(at - bytes.data());
-    const std::size_t feed = place == 0 ? std::string_view::npos : bytes.rfind('\n', place - 1);
-    std::size_t begin = feed == std::string_view::npos ? 0 : feed + 1;
+    std::size_t begin = place == 0 ? 0 : bytes.rfind('\n', place - 1) + 1;
     if (begin == 0 && bytes.starts_with("\xEF\xBB\xBF")) begin = 3;
     std::string_view line = bytes.substr(begin, bytes.find('\n', place) - begin);
     if (line.ends_with('\r')) line.remove_suffix(1);

@@ -13,8 +13,7 @@ using io::RowOutput;
 void write_comment(RowOutput& out, std::string_view text) {
     while (!text.empty()) {  // a line break in the comment must not begin a row
         const std::size_t stop = std::min(text.find_first_of("\r\n"), text.size());
-        for (const std::string_view part : {std::string_view("# "), text.substr(0, stop), std::string_view("\n")})
-            out.text(part);
+        out.text("# " + std::string(text.substr(0, stop)) + "\n");
         text.remove_prefix(std::min(stop + 1, text.size()));
     }
 }
