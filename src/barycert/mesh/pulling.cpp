@@ -58,9 +58,7 @@ public:
     }
     bool is_edge(Index a, Index b) const {
         return std::ranges::any_of(of(a), [&](std::size_t r) {
-            const std::vector<Index>& ring = rings_[r];
-            const auto at = static_cast<std::size_t>(std::ranges::find(ring, a) - ring.begin());
-            return ring[(at + 1) % ring.size()] == b || ring[(at + ring.size() - 1) % ring.size()] == b;
+            return follows(rings_[r], a, b) || follows(rings_[r], b, a);
         });
     }
 
@@ -97,8 +95,10 @@ public:
 private:
     const std::vector<std::size_t>& of(Index node) const { return of_node_[static_cast<std::size_t>(node)]; }
     static bool follows(const std::vector<Index>& ring, Index a, Index b) {
-        const auto at = static_cast<std::size_t>(std::ranges::find(ring, a) - ring.begin());
-        return at < ring.size() && ring[(at + 1) % ring.size()] == b;
+        for (std::size_t i = 0; i < ring.size(); ++i) {  // a node may be there twice
+            if (ring[i] == a && ring[(i + 1) % ring.size()] == b) return true;
+        }
+        return false;
     }
 
     std::vector<std::vector<Index>> rings_;

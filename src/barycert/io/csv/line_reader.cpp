@@ -14,18 +14,15 @@ LineReader::LineReader(const std::string& path) : name_(path == "-" ? "standard 
     const auto need = [&](bool good) {
         if (!good) throw Exception(base::read_failure(name_, errno));
     };
-    const bool own = path != "-";
     // A named pipe waits for its writer, as every reader of streams does: `gen > p.csv & barycert ... p.csv`.
-    descriptor_ = own ? ::open(path.c_str(), O_RDONLY | O_CLOEXEC) : STDIN_FILENO;
-    need(descriptor_ >= 0);
-    Status plain = base::unpack(descriptor_, name_, base::Text::words);
-    if (own) owned_.number = descriptor_;
-    if (own) plain.value();
+    file_.number = path == "-" ? ::fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 0) : ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    need(file_.number >= 0);
+    base::unpack(file_.number, name_, base::Text::words).value();
     struct stat status {};
-    need(::fstat(descriptor_, &status) == 0);
+    need(::fstat(file_.number, &status) == 0);
     errno = EISDIR;
     need(!S_ISDIR(status.st_mode));
-    base::record_input(descriptor_, name_);
+    base::record_input(file_.number, name_);
     if (S_ISREG(status.st_mode)) then_ = {static_cast<std::uint64_t>(status.st_size), status.st_mtim};
     // A small file takes a small buffer: all of it, and a byte more than that, so that the end is met at once.
     const bool small = S_ISREG(status.st_mode) && static_cast<std::uint64_t>(status.st_size) < longest_line;
@@ -40,7 +37,7 @@ void LineReader::skip_mark() {
     if (head.starts_with("\x93NU"))
         refuse_file(name_, "this is an NPY file", "text: a point a line", {},
                     "name a file that ends in .npy: a stream or a file of another name is read as CSV");
-    if (const OtherFormat* packed = packed_format(head); owned_ && packed != nullptr)
+    if (const OtherFormat* packed = packed_format(head); packed != nullptr)
         throw Exception(other_format_error(*packed, name_));
     // A smaller part of the file, as a pipe gives, is decided line by line.
     base::check_beginning(head.substr(0, base::first_block), base::Text::words, name_).value();
@@ -62,7 +59,7 @@ void LineReader::refill() {
     if (end_ + 1 == buffer_.size()) buffer_.resize(longest_line + 1);  // the file has grown meanwhile
     ssize_t got = 0;
     do {
-        got = ::read(descriptor_, buffer_.data() + end_, buffer_.size() - 1 - end_);
+        got = ::read(file_.number, buffer_.data() + end_, buffer_.size() - 1 - end_);
     } while (got < 0 && errno == EINTR);
     if (got < 0) throw Exception(base::read_failure(name_, errno));
     end_ += static_cast<std::size_t>(got);
@@ -91,7 +88,7 @@ bool LineReader::take_lines() {
     // As much as there is room for, as a pipe gives little; but no line waits for others that may be long in coming.
     const auto held = [&] { return std::string_view(buffer_.data() + begin_, end_ - begin_); };
     const auto would_wait = [&] {
-        pollfd asked{.fd = descriptor_, .events = POLLIN, .revents = 0};
+        pollfd asked{.fd = file_.number, .events = POLLIN, .revents = 0};
         return ::poll(&asked, 1, 0) != 1;
     };
     while (!ended_ && (begin_ != 0 || end_ != longest_line)) {

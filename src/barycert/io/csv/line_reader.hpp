@@ -27,7 +27,7 @@ public:
 
     /// Error: it is a regular file and was changed since it was opened, so that a line that is wrong may be half of
     /// one. Looked at where the file ends.
-    Status unchanged() const { return then_ ? base::unchanged(descriptor_, *then_, name_) : Status(Done{}); }
+    Status unchanged() const { return then_ ? base::unchanged(file_.number, *then_, name_) : Status(Done{}); }
 
     /// The last line given ended with LF or CR, and not with the file.
     bool line_ended() const { return line_ended_; }
@@ -43,8 +43,7 @@ private:
     void skip_mark();
 
     std::string name_;
-    int descriptor_ = -1;
-    base::Descriptor owned_;               // the same; not of the standard input, which stays open
+    base::Descriptor file_;
     std::optional<base::FileState> then_;  // of a regular file
     bool ended_ = false;                   // nothing more comes from the system
     std::vector<char> buffer_;
