@@ -4,7 +4,6 @@
 
 #include <sstream>
 
-#include "barycert/base/json_text.hpp"
 #include "barycert/report.hpp"
 
 namespace barycert {
@@ -46,10 +45,6 @@ void Document::figure(std::string_view key, Json value, std::string name, std::s
 std::string Item::Places::more(std::size_t told) const {
     if (told == 0 || told >= count) return "";
     return at_least ? "and more" : fmt::format("and {} more", count - told);
-}
-
-std::string data_text(const Document& document) {
-    return base::json_text(document.data, document.indent);
 }
 
 std::string time_text(double total, int threads, const std::vector<std::pair<std::string_view, double>>& parts) {

@@ -6,6 +6,7 @@
 
 #include <initializer_list>
 
+#include "barycert/base/json_text.hpp"
 #include "barycert/report/common/json.hpp"
 #include "barycert/report/common/terminal_text.hpp"
 
@@ -145,7 +146,6 @@ public:
     bool script = false;                   ///< a page's tables sort, its commands are copied
     std::string_view style = {};           ///< a page's, after the common one
     Json data = {};
-    int indent = 2;  ///< of the data
 
     using Content = std::variant<Headline, Section, Paragraph, Named, Listing, Item, Bars, Pictures>;
     struct Block {
@@ -190,8 +190,6 @@ std::string terminal_text(const Document& document, bool colour);
 /// One page of HTML, self-contained and well-formed XML, for screens of any width, light and dark, and for paper.
 std::string page_text(const Document& document);
 
-std::string data_text(const Document& document);
-
 /// The public functions that write what NAME_document says, of an audit and of a run: names which nothing but a macro
 /// makes. Each works in the exact environment.
 #define AUDIT_TEXT_AND_JSON(name, Report)                                       \
@@ -201,7 +199,7 @@ std::string data_text(const Document& document);
     }                                                                           \
     std::string name##_json(const Report& report) {                             \
         const ExactEnvironment environment;                                     \
-        return data_text(name##_document(report));                              \
+        return base::json_text(name##_document(report).data, 1);                \
     }
 #define RUN_TEXT_AND_JSON(name, Report)                                    \
     std::string name##_text(const Report& report, bool colour) {           \
@@ -210,7 +208,7 @@ std::string data_text(const Document& document);
     }                                                                      \
     std::string name##_json(const Report& report, const Environment& of) { \
         const ExactEnvironment environment;                                \
-        return data_text(name##_document(report, of));                     \
+        return base::json_text(name##_document(report, of).data, 2);       \
     }
 
 /// For sentences that hold of straight sides alone; empty where these are the mesh's own.
