@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numbers>
 
@@ -12,7 +10,6 @@
 #include "barycert/base/text.hpp"
 #include "barycert/base/vectors.hpp"
 #include "barycert/environment.hpp"
-#include "barycert/io/png/colour_map.hpp"
 #include "barycert/io/png/panels.hpp"
 
 namespace barycert {
