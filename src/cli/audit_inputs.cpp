@@ -3,7 +3,6 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "barycert/audit_report.hpp"
 #include "barycert/base/nearest_name.hpp"
 
 namespace barycert::cli {

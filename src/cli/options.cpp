@@ -1,8 +1,5 @@
 #include "options.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <cctype>
 #include <cmath>
 

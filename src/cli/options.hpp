@@ -1,7 +1,7 @@
 /// How a subcommand declares its options, a call each; and the options that several of them have.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include <concepts>
 #include <initializer_list>
@@ -110,7 +110,7 @@ public:
             const std::optional<double> number = finite(text);
             return number && *number >= least ? number : std::nullopt;
         };
-        return parsed(name, type, help, "a finite number of at least " + base::shortest(least), x, read);
+        return parsed(name, type, help, fmt::format("a finite number of at least {}", base::shortest(least)), x, read);
     }
     /// What take(text) reads; it returns false for what is not as `expected`.
     CLI::Option* taken(Text name, Text type, Text help, Text expected, const std::function<bool(Text)>& take) const;
@@ -131,9 +131,7 @@ public:
         words.reserve(choices.size());
         for (const auto& choice : choices) words.push_back(choice.first);
         const auto set = [&value, choices](const std::string& word) {
-            for (const auto& choice : choices) {
-                if (choice.first == word) value = choice.second;
-            }
+            value = std::ranges::find(choices, word, &std::pair<std::string, Value>::first)->second;
         };
         return app_->add_option_function<std::string>(name, set, with_command_name(help))
             ->check(one_of(words))
