@@ -163,13 +163,12 @@ std::vector<std::string> conformity_sentences(const CheckReport& r, std::size_t 
 
 std::string tetgen_sentence(const CheckReport& r) {
     const SurfaceReport& s = *r.surface;
-    std::vector<std::string> reasons;
-    for (const Defect& f : r.defects) {
+    const std::string reasons = joined(r.defects, ", ", [](const Defect& f) {
         // TetGen makes one node of two at one place, and leaves out what collapses.
-        if (f.breaks() && f.kind != DefectKind::open_edge && f.kind != DefectKind::repeated_node)
-            reasons.push_back(reason(f));
-    }
-    if (!reasons.empty()) return fmt::format("TetGen will not get a valid PLC: {}", fmt::join(reasons, ", "));
+        const bool minor = f.kind == DefectKind::open_edge || f.kind == DefectKind::repeated_node;
+        return minor || !f.breaks() ? "" : reason(f);
+    });
+    if (!reasons.empty()) return "TetGen will not get a valid PLC: " + reasons;
     const auto left = std::ranges::count(s.regions, false, &SurfaceRegion::hole);
     if (s.regions.empty()) return "TetGen will have nothing to mesh: the triangles enclose no region";
     if (left == 0) return "TetGen will have nothing to mesh: hole points lie in all regions";
