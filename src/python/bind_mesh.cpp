@@ -1,5 +1,3 @@
-#include "barycert/check.hpp"
-#include "barycert/weights.hpp"
 #include "bindings.hpp"
 
 namespace barycert::python {

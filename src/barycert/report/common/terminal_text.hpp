@@ -4,11 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstdint>
 #include <span>
-#include <string>
-#include <string_view>
-#include <utility>
 #include <vector>
 
 #include "barycert/base/text.hpp"
