@@ -109,7 +109,6 @@ std::string set_cells(const MeshObject& object, const std::string& file, Curved 
     return found.cells == 0 || curved == Curved::isoparametric ? std::string() : message(found);
 }
 
-/// References to all arrays.
 auto arrays_of(auto& shapes) {
     auto& [types, ends, nodes, face_ends, ring_ends, rings, parts, inside] = shapes;
     return std::tie(types, ends, nodes, face_ends, ring_ends, rings, parts, inside);

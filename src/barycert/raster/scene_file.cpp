@@ -79,7 +79,6 @@ public:
         return value_.get<std::string>();
     }
 
-    /// An array of `count` numbers.
     std::vector<double> numbers(std::size_t count) const {
         if (!value_.is_array() || value_.size() != count) fail("an array of " + std::to_string(count) + " numbers");
         std::vector<double> all;

@@ -28,8 +28,6 @@ using Ints = hn::Rebind<std::int32_t, Floats>;
 using IntLanes = hn::Vec<Ints>;
 using FloatLanes = hn::Vec<Floats>;
 
-// Texture coordinates.
-
 /// How to get at the texels.
 struct Sheet {
     const std::int32_t* texels;

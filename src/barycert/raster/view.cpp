@@ -64,7 +64,6 @@ Status check(const SurfaceView& s, const ViewOptions& o) {
     return Done{};
 }
 
-/// The value at a corner of a triangle.
 double value_at(const SurfaceView& s, std::size_t corner) {
     if (!s.point_values.empty()) return s.point_values[static_cast<std::size_t>(s.triangles[corner])];
     return s.triangle_values[corner / 3];
@@ -74,7 +73,6 @@ bool has_values(const SurfaceView& s) {
     return !s.point_values.empty() || !s.triangle_values.empty();
 }
 
-/// The least and the greatest of numbers.
 struct Range {
     double low = HUGE_VAL, high = -HUGE_VAL;
 

@@ -49,7 +49,6 @@ Scene scene_of(const Mesh& mesh, const Exhibit& e) {
     return scene;
 }
 
-/// The box of a scene in a view.
 Eigen::AlignedBox2d frame(const Scene& scene, const View& view) {
     Eigen::AlignedBox2d box;
     for (const Vector& p : scene.points) box.extend(view(p).head<2>());
