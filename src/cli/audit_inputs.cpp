@@ -80,10 +80,6 @@ TerminalStyle style_to_repeat(const Reports& reports, const KernelChoice& kernel
     return style;
 }
 
-void tell_note(const std::string& path, const Kernel& kernel) {
-    if (!kernel.note.empty()) tell("note: " + base::printable(path + ": " + kernel.note) + "\n");
-}
-
 Result<std::vector<Kernel>> chosen_kernels(const KernelChoice& choice) {
     auto kernels = choose_kernels(choice);
     const std::size_t count = choice.libraries.size();

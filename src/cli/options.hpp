@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <concepts>
 #include <initializer_list>
 
@@ -15,9 +16,18 @@
 namespace barycert::cli {
 
 /// A finite number; nothing if the text is something else. Likewise one above 0, and an integer of at least 1.
-std::optional<double> finite(std::string_view text);
-std::optional<double> positive(std::string_view text);
-std::optional<std::int64_t> count_of(std::string_view text);
+inline std::optional<double> finite(std::string_view text) {
+    const auto x = base::parse_double(text);
+    return x && std::isfinite(*x) ? x : std::nullopt;
+}
+inline std::optional<double> positive(std::string_view text) {
+    const auto x = finite(text);
+    return x && *x > 0 ? x : std::nullopt;
+}
+inline std::optional<std::int64_t> count_of(std::string_view text) {
+    const auto n = base::whole_number<std::int64_t>(text);
+    return n && *n >= 1 ? n : std::nullopt;
+}
 
 /// Reads the parts of a text between separators, each by `read`, from `least` to `most` of them; nothing if that fails.
 template <class Read>
@@ -89,7 +99,10 @@ public:
     CLI::Option* each(Text name, Text type, Text help, const std::function<void(Text)>& take) const;
 
     /// Sets what is not `given` without it.
-    CLI::Option* flag(Text name, bool& value, Text help, bool given = true) const;
+    CLI::Option* flag(Text name, bool& value, Text help, bool given = true) const {
+        return app_->add_flag_callback(
+            name, [&value, given] { value = given; }, with_command_name(help));
+    }
 
     /// An integer from `least` to `most`; the help shows what it is without the option.
     template <class N>

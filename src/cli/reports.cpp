@@ -8,23 +8,6 @@
 
 namespace barycert::cli {
 
-void Progress::stage(std::string_view text) {
-    if (!on_) return;
-    tell(fmt::format("\r\033[K{}", base::printable(text)));
-    shown_ = true;
-    last_ = std::chrono::steady_clock::now();
-}
-
-void Progress::clear() {
-    if (shown_) tell("\r\033[K");
-    shown_ = false;
-}
-
-void Reports::file(const Options& o, const char* option, const std::string& help) {
-    files_.push_back({option, ""});
-    o.text(option, files_.back().path, help);
-}
-
 void Reports::ci(const Options& o, const std::string& failures) {
     file(o, "--junit", "Write " + failures + " as failures in JUnit XML; - is stdout and suppresses the table");
     file(o, "--sarif", "Write all that was found as SARIF 2.1.0, " + failures + " as errors; - is stdout likewise");
@@ -111,10 +94,6 @@ int Reports::write(Told told) {
 bool colour_on_stdout() {
     const char* no_colour = std::getenv("NO_COLOR");
     return isatty(STDOUT_FILENO) == 1 && (no_colour == nullptr || *no_colour == '\0');
-}
-
-std::string failure(const std::string& what, const std::string& value, const std::string& limit) {
-    return fmt::format("fails: {} = {}, limit {}\n", what, value, limit);
 }
 
 }  // namespace barycert::cli
