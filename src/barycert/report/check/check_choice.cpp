@@ -104,11 +104,6 @@ std::vector<Exhibit> defect_cells(const CheckReport& report, const Mesh& mesh, s
     return exhibits;
 }
 
-Vector unit(const Vector& a) {
-    const double max = a.cwiseAbs().maxCoeff();
-    return max > std::numeric_limits<double>::min() ? Vector((a / max).normalized()) : Vector(Vector::UnitX());
-}
-
 bool drawable(const Mesh& mesh, std::size_t cell) {
     return std::ranges::all_of(nodes_of(mesh, cell), [&](Mesh::Index node) {
         return node >= 0 && static_cast<std::size_t>(node) < mesh.point_count() &&

@@ -77,7 +77,10 @@ std::array<std::size_t, 2> sharpest_edge(Points tetrahedron);
 View along_edge(Points tetrahedron, std::array<std::size_t, 2> edge);
 
 /// Of length 1; any such vector, if `a` is zero.
-Vector unit(const Vector& a);
+inline Vector unit(const Vector& a) {
+    const double max = a.cwiseAbs().maxCoeff();
+    return max > std::numeric_limits<double>::min() ? Vector((a / max).normalized()) : Vector(Vector::UnitX());
+}
 
 // Measures of cells, and their histograms.
 

@@ -37,24 +37,9 @@ void Document::curved(const CurvedCells& curved, const std::string& mesh) {
         For::page);
 }
 
-void Document::figure(std::string_view key, Json value, std::string name, std::string text, Tone tone) {
-    data[std::string(key)] = std::move(value);
-    this->name(std::move(name), std::move(text), tone);
-}
-
 std::string Item::Places::more(std::size_t told) const {
     if (told == 0 || told >= count) return "";
     return at_least ? "and more" : fmt::format("and {} more", count - told);
-}
-
-std::string time_text(double total, int threads, const std::vector<std::pair<std::string_view, double>>& parts) {
-    return fmt::format("{:.3g} s on {}: {}", total, counted(static_cast<std::uint64_t>(threads), "thread"),
-                       joined(parts, ", ", [](const auto& p) { return fmt::format("{} {:.3g}", p.first, p.second); }));
-}
-
-std::string not_finite_text(const NotFinite& f) {
-    return fmt::format("field {}{}: {} of {} values {} not finite", f.field, f.of_cells ? " of cells" : "", f.count,
-                       f.values, f.count == 1 ? "is" : "are");
 }
 
 namespace {

@@ -181,7 +181,10 @@ public:
     /// What stands before all else on a mesh whose sides are not straight; nothing if they are. `mesh`: of several.
     void curved(const CurvedCells& curved, const std::string& mesh = {});
     /// A member of the data, and what people are told of it.
-    void figure(std::string_view key, Json value, std::string name, std::string text, Tone tone = Tone::plain);
+    void figure(std::string_view key, Json value, std::string name, std::string text, Tone tone = Tone::plain) {
+        data[std::string(key)] = std::move(value);
+        this->name(std::move(name), std::move(text), tone);
+    }
 };
 
 /// For a terminal or a log: at most 100 columns, where words allow it.
@@ -217,9 +220,15 @@ inline std::string_view for_straight_sides(const CurvedCells& curved) {
 }
 
 /// "2 s on 4 threads: mesh 0.5, sampling 1.5".
-std::string time_text(double total, int threads, const std::vector<std::pair<std::string_view, double>>& parts);
+inline std::string time_text(double total, int threads, const std::vector<std::pair<std::string_view, double>>& parts) {
+    return fmt::format("{:.3g} s on {}: {}", total, counted(static_cast<std::uint64_t>(threads), "thread"),
+                       joined(parts, ", ", [](const auto& p) { return fmt::format("{} {:.3g}", p.first, p.second); }));
+}
 
 /// "field T: 3 of 50 values are not finite".
-std::string not_finite_text(const NotFinite& field);
+inline std::string not_finite_text(const NotFinite& f) {
+    return fmt::format("field {}{}: {} of {} values {} not finite", f.field, f.of_cells ? " of cells" : "", f.count,
+                       f.values, f.count == 1 ? "is" : "are");
+}
 
 }  // namespace barycert::report
