@@ -53,12 +53,6 @@ std::string given_option(const CLI::App& app, std::initializer_list<std::string_
     return "";
 }
 
-std::optional<std::pair<double, double>> ends_of(std::string_view text) {
-    const auto ends = numbers(',', finite, 2, 2)(text);
-    if (!ends) return std::nullopt;
-    return std::pair((*ends)[0], (*ends)[1]);
-}
-
 std::pair<std::string, std::string> assignment(Text option, Text expected, Text text) {
     const std::size_t sign = text.find('=');
     if (sign == std::string::npos || sign == 0 || sign + 1 == text.size()) refuse_option(option, expected, text);

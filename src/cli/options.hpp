@@ -1,8 +1,6 @@
 /// How a subcommand declares its options, a call each; and the options that several of them have.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <concepts>
@@ -46,7 +44,11 @@ auto numbers(char separator, Read read, std::size_t least, std::size_t most) {
 }
 
 /// MIN,MAX.
-std::optional<std::pair<double, double>> ends_of(std::string_view text);
+inline std::optional<std::pair<double, double>> ends_of(std::string_view text) {
+    const auto ends = numbers(',', finite, 2, 2)(text);
+    if (!ends) return std::nullopt;
+    return std::pair((*ends)[0], (*ends)[1]);
+}
 
 /// Of each item its name, a member or name(item).
 template <class Items>

@@ -21,11 +21,6 @@ const std::string& Reports::path(std::string_view option) const {
     return named == files_.end() ? none : named->path;
 }
 
-bool Reports::table() const {
-    const bool rows = rows_ != nullptr && *rows_ == "-";
-    return !quiet_ && !rows && std::none_of(files_.begin(), files_.end(), [](const auto& f) { return f.path == "-"; });
-}
-
 std::vector<std::pair<std::string, std::string>> Reports::outputs() const {
     std::vector<std::pair<std::string, std::string>> all;
     for (const auto& f : files_) all.emplace_back(f.what, f.path);

@@ -96,7 +96,10 @@ public:
     }
 
 private:
-    bool table() const;
+    bool table() const {
+        const bool rows = rows_ != nullptr && *rows_ == "-";
+        return !quiet_ && !rows && std::ranges::find(files_, "-", &base::NamedFile::path) == files_.end();
+    }
     std::vector<std::pair<std::string, std::string>> outputs() const;
 
     std::deque<base::NamedFile> files_;  // options refer to the paths

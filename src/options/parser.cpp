@@ -1,7 +1,5 @@
 #include "options/parser.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cctype>
 
@@ -112,10 +110,6 @@ CLI::Validator one_of(const std::vector<std::string>& words) {
                                    meant);
             },
             ""};
-}
-
-std::string joined(const std::vector<std::string>& words) {
-    return fmt::format("{}", fmt::join(words, "|"));
 }
 
 std::string usage_error(const CLI::App& app, const std::exception& error, const std::string& rest,

@@ -163,13 +163,6 @@ std::vector<Field>& MeshObject::fields(bool of_cells) {
     return of_cells ? fields_->cell_fields : fields_->point_fields;
 }
 
-Mesh MeshObject::whole() const {
-    Mesh all = mesh();
-    all.point_fields = fields_->point_fields;
-    all.cell_fields = fields_->cell_fields;
-    return all;
-}
-
 std::shared_ptr<BoundSampler> MeshObject::sampler(const std::vector<std::string>& names, const Progress& progress) {
     if (last_ && last_names_ == names) return last_;
     const std::shared_ptr<const Mesh> fields = fields_;

@@ -37,11 +37,6 @@ void Document::curved(const CurvedCells& curved, const std::string& mesh) {
         For::page);
 }
 
-std::string Item::Places::more(std::size_t told) const {
-    if (told == 0 || told >= count) return "";
-    return at_least ? "and more" : fmt::format("and {} more", count - told);
-}
-
 namespace {
 
 constexpr std::size_t columns = 100;

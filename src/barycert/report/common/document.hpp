@@ -103,7 +103,11 @@ struct Item {
         std::uint64_t count = 0;
         bool at_least = false;
         char between = ';';
-        std::string more(std::size_t told) const;  ///< "and 30 more"; empty if all are told
+        /// "and 30 more"; empty if all are told.
+        std::string more(std::size_t told) const {
+            if (told == 0 || told >= count) return "";
+            return at_least ? "and more" : fmt::format("and {} more", count - told);
+        }
     };
     struct Line {
         std::string text = {};
