@@ -102,9 +102,8 @@ struct NamedLimit {
 inline NamedLimit named_limit(std::string_view text) {
     const std::size_t sign = text.find('>');
     if (sign == std::string_view::npos) return {text, 0};
-    std::optional<double> most = parse_double(text.substr(sign + 1));
-    if (most && !(*most >= 0)) most.reset();
-    return {text.substr(0, sign), most};
+    const std::optional<double> most = parse_double(text.substr(sign + 1));
+    return {text.substr(0, sign), most && *most >= 0 ? most : std::nullopt};
 }
 
 }  // namespace barycert::base
