@@ -1,9 +1,6 @@
 // barycert audit: run kernels over families of cases against the oracle and report.
 
-#include <fmt/format.h>
-
 #include "audit_inputs.hpp"
-#include "barycert/audit_report.hpp"
 
 namespace barycert::cli {
 namespace {

@@ -3,7 +3,6 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "barycert/audit_report.hpp"
 #include "barycert/base/nearest_name.hpp"
 
 namespace barycert::cli {
@@ -79,10 +78,6 @@ TerminalStyle style_to_repeat(const Reports& reports, const KernelChoice& kernel
     if (kernels.seconds != KernelChoice{}.seconds) words += " --time-limit " + base::shortest(kernels.seconds);
     if (kernels.class_tolerance) words += " --class-tolerance " + base::shortest(*kernels.class_tolerance);
     return style;
-}
-
-void tell_note(const std::string& path, const Kernel& kernel) {
-    if (!kernel.note.empty()) tell("note: " + base::printable(path + ": " + kernel.note) + "\n");
 }
 
 Result<std::vector<Kernel>> chosen_kernels(const KernelChoice& choice) {

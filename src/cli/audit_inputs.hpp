@@ -1,7 +1,7 @@
 /// What an audit is made of: meshes, kernels and families, by the words of the user.
 #pragma once
 
-#include "barycert/audit.hpp"
+#include "barycert/audit_report.hpp"
 #include "reports.hpp"
 
 namespace barycert::cli {
@@ -25,7 +25,9 @@ inline void add_seed(const Options& o, std::uint64_t& seed, const std::string& h
 
 /// choose_kernels(), with what the libraries are to be told of on stderr.
 Result<std::vector<Kernel>> chosen_kernels(const KernelChoice& choice);
-void tell_note(const std::string& path, const Kernel& kernel);
+inline void tell_note(const std::string& path, const Kernel& kernel) {
+    if (!kernel.note.empty()) tell("note: " + base::printable(path + ": " + kernel.note) + "\n");
+}
 
 inline std::vector<base::NamedFile> library_files(const KernelChoice& kernels) {
     return base::named_files("--kernel-library", kernels.libraries);

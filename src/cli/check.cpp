@@ -1,7 +1,5 @@
 // barycert check: is a mesh a partition of its domain? Proved in exact arithmetic, or the reasons why not.
 
-#include <fmt/format.h>
-
 #include "barycert/report/check/check_words.hpp"
 #include "reports.hpp"
 

@@ -1,9 +1,6 @@
 // barycert gaps: which points of a mesh a kernel loses between cells, gives to several, or to a wrong one.
 
-#include <fmt/format.h>
-
 #include "audit_inputs.hpp"
-#include "barycert/audit_report.hpp"
 
 namespace barycert::cli {
 namespace {

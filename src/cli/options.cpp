@@ -1,10 +1,6 @@
 #include "options.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <cctype>
-#include <cmath>
 
 #include "barycert/io/formats.hpp"
 #include "options/command_table.hpp"
@@ -57,27 +53,6 @@ std::string given_option(const CLI::App& app, std::initializer_list<std::string_
     return "";
 }
 
-std::optional<double> finite(std::string_view text) {
-    const auto x = base::parse_double(text);
-    return x && std::isfinite(*x) ? x : std::nullopt;
-}
-
-std::optional<double> positive(std::string_view text) {
-    const auto x = finite(text);
-    return x && *x > 0 ? x : std::nullopt;
-}
-
-std::optional<std::int64_t> count_of(std::string_view text) {
-    const auto n = base::whole_number<std::int64_t>(text);
-    return n && *n >= 1 ? n : std::nullopt;
-}
-
-std::optional<std::pair<double, double>> ends_of(std::string_view text) {
-    const auto ends = numbers(',', finite, 2, 2)(text);
-    if (!ends) return std::nullopt;
-    return std::pair((*ends)[0], (*ends)[1]);
-}
-
 std::pair<std::string, std::string> assignment(Text option, Text expected, Text text) {
     const std::size_t sign = text.find('=');
     if (sign == std::string::npos || sign == 0 || sign + 1 == text.size()) refuse_option(option, expected, text);
@@ -106,11 +81,6 @@ CLI::Option* Options::each(Text name, Text type, Text help, const std::function<
     };
     return text_like(app_->add_option_function<std::vector<std::string>>(name, take_all, with_command_name(help)), type,
                      true);
-}
-
-CLI::Option* Options::flag(Text name, bool& value, Text help, bool given) const {
-    return app_->add_flag_callback(
-        name, [&value, given] { value = given; }, with_command_name(help));
 }
 
 void Options::cell_interpolation(CellInterpolation& interpolation) const {

@@ -1,8 +1,8 @@
 /// How a subcommand declares its options, a call each; and the options that several of them have.
 #pragma once
 
-#include <CLI/CLI.hpp>
-
+#include <algorithm>
+#include <cmath>
 #include <concepts>
 #include <initializer_list>
 
@@ -14,9 +14,18 @@
 namespace barycert::cli {
 
 /// A finite number; nothing if the text is something else. Likewise one above 0, and an integer of at least 1.
-std::optional<double> finite(std::string_view text);
-std::optional<double> positive(std::string_view text);
-std::optional<std::int64_t> count_of(std::string_view text);
+inline std::optional<double> finite(std::string_view text) {
+    const auto x = base::parse_double(text);
+    return x && std::isfinite(*x) ? x : std::nullopt;
+}
+inline std::optional<double> positive(std::string_view text) {
+    const auto x = finite(text);
+    return x && *x > 0 ? x : std::nullopt;
+}
+inline std::optional<std::int64_t> count_of(std::string_view text) {
+    const auto n = base::whole_number<std::int64_t>(text);
+    return n && *n >= 1 ? n : std::nullopt;
+}
 
 /// Reads the parts of a text between separators, each by `read`, from `least` to `most` of them; nothing if that fails.
 template <class Read>
@@ -35,7 +44,11 @@ auto numbers(char separator, Read read, std::size_t least, std::size_t most) {
 }
 
 /// MIN,MAX.
-std::optional<std::pair<double, double>> ends_of(std::string_view text);
+inline std::optional<std::pair<double, double>> ends_of(std::string_view text) {
+    const auto ends = numbers(',', finite, 2, 2)(text);
+    if (!ends) return std::nullopt;
+    return std::pair((*ends)[0], (*ends)[1]);
+}
 
 /// Of each item its name, a member or name(item).
 template <class Items>
@@ -88,7 +101,10 @@ public:
     CLI::Option* each(Text name, Text type, Text help, const std::function<void(Text)>& take) const;
 
     /// Sets what is not `given` without it.
-    CLI::Option* flag(Text name, bool& value, Text help, bool given = true) const;
+    CLI::Option* flag(Text name, bool& value, Text help, bool given = true) const {
+        return app_->add_flag_callback(
+            name, [&value, given] { value = given; }, with_command_name(help));
+    }
 
     /// An integer from `least` to `most`; the help shows what it is without the option.
     template <class N>
@@ -110,7 +126,7 @@ public:
             const std::optional<double> number = finite(text);
             return number && *number >= least ? number : std::nullopt;
         };
-        return parsed(name, type, help, "a finite number of at least " + base::shortest(least), x, read);
+        return parsed(name, type, help, fmt::format("a finite number of at least {}", base::shortest(least)), x, read);
     }
     /// What take(text) reads; it returns false for what is not as `expected`.
     CLI::Option* taken(Text name, Text type, Text help, Text expected, const std::function<bool(Text)>& take) const;
@@ -131,9 +147,7 @@ public:
         words.reserve(choices.size());
         for (const auto& choice : choices) words.push_back(choice.first);
         const auto set = [&value, choices](const std::string& word) {
-            for (const auto& choice : choices) {
-                if (choice.first == word) value = choice.second;
-            }
+            value = std::ranges::find(choices, word, &std::pair<std::string, Value>::first)->second;
         };
         return app_->add_option_function<std::string>(name, set, with_command_name(help))
             ->check(one_of(words))

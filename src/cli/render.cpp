@@ -1,7 +1,5 @@
 // barycert render: pictures of scenes and meshes; the rest of its subcommands have files of their own.
 
-#include <algorithm>
-
 #include "barycert/base/nearest_name.hpp"
 #include "reports.hpp"
 

@@ -1,7 +1,5 @@
 // barycert render iso, slice: where a field has a value, in a mesh or on one segment; a plane through a mesh.
 
-#include <fmt/format.h>
-
 #include "barycert/io/formats.hpp"
 #include "reports.hpp"
 

@@ -1,7 +1,6 @@
 // barycert render drift, barycert render texels: what the shortcuts of rasterisers cost, against exact arithmetic.
 
 #include "audit_inputs.hpp"
-#include "barycert/audit_report.hpp"
 
 namespace barycert::cli {
 namespace {

@@ -1,11 +1,8 @@
 // barycert replay: show a witness, every kernel's weights next to the exact ones.
 
-#include <fmt/format.h>
-
 #include <filesystem>
 
 #include "audit_inputs.hpp"
-#include "barycert/audit_report.hpp"
 #include "barycert/base/nearest_name.hpp"
 
 namespace barycert::cli {

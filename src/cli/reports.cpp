@@ -1,31 +1,12 @@
 #include "reports.hpp"
 
-#include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cstdlib>
 
 #include "options/want_of_memory.hpp"
 
 namespace barycert::cli {
-
-void Progress::stage(std::string_view text) {
-    if (!on_) return;
-    tell(fmt::format("\r\033[K{}", base::printable(text)));
-    shown_ = true;
-    last_ = std::chrono::steady_clock::now();
-}
-
-void Progress::clear() {
-    if (shown_) tell("\r\033[K");
-    shown_ = false;
-}
-
-void Reports::file(const Options& o, const char* option, const std::string& help) {
-    files_.push_back({option, ""});
-    o.text(option, files_.back().path, help);
-}
 
 void Reports::ci(const Options& o, const std::string& failures) {
     file(o, "--junit", "Write " + failures + " as failures in JUnit XML; - is stdout and suppresses the table");
@@ -38,11 +19,6 @@ const std::string& Reports::path(std::string_view option) const {
     static const std::string none;
     const auto named = std::find_if(files_.begin(), files_.end(), [&](const auto& f) { return f.what == option; });
     return named == files_.end() ? none : named->path;
-}
-
-bool Reports::table() const {
-    const bool rows = rows_ != nullptr && *rows_ == "-";
-    return !quiet_ && !rows && std::none_of(files_.begin(), files_.end(), [](const auto& f) { return f.path == "-"; });
 }
 
 std::vector<std::pair<std::string, std::string>> Reports::outputs() const {
@@ -113,10 +89,6 @@ int Reports::write(Told told) {
 bool colour_on_stdout() {
     const char* no_colour = std::getenv("NO_COLOR");
     return isatty(STDOUT_FILENO) == 1 && (no_colour == nullptr || *no_colour == '\0');
-}
-
-std::string failure(const std::string& what, const std::string& value, const std::string& limit) {
-    return fmt::format("fails: {} = {}, limit {}\n", what, value, limit);
 }
 
 }  // namespace barycert::cli

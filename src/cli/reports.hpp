@@ -14,10 +14,18 @@ namespace barycert::cli {
 class Progress {
 public:
     void begin(bool on) { on_ = on; }
-    void stage(std::string_view text);
+    void stage(std::string_view text) {
+        if (!on_) return;
+        tell(fmt::format("\r\033[K{}", base::printable(text)));
+        shown_ = true;
+        last_ = std::chrono::steady_clock::now();
+    }
     /// True if a line is shown at all and the last one is a tenth of a second old.
     bool due() const { return on_ && std::chrono::steady_clock::now() - last_ > std::chrono::milliseconds(100); }
-    void clear();
+    void clear() {
+        if (shown_) tell("\r\033[K");
+        shown_ = false;
+    }
 
 private:
     bool on_ = false, shown_ = false;
@@ -39,7 +47,10 @@ struct Told {
 class Reports {
 public:
     // Declared in the order of the help.
-    void file(const Options& o, const char* option, const std::string& help);
+    void file(const Options& o, const char* option, const std::string& help) {
+        files_.push_back({option, ""});
+        o.text(option, files_.back().path, help);
+    }
     /// --junit, --sarif, --annotations. `failures`: what is reported as failed, as in "broken rules".
     void ci(const Options& o, const std::string& failures);
     void quiet(const Options& o, const char* help) { o.flag("--quiet", quiet_, help); }
@@ -85,7 +96,10 @@ public:
     }
 
 private:
-    bool table() const;
+    bool table() const {
+        const bool rows = rows_ != nullptr && *rows_ == "-";
+        return !quiet_ && !rows && std::ranges::find(files_, "-", &base::NamedFile::path) == files_.end();
+    }
     std::vector<std::pair<std::string, std::string>> outputs() const;
 
     std::deque<base::NamedFile> files_;  // options refer to the paths
@@ -105,6 +119,8 @@ struct Arguments {
 bool colour_on_stdout();
 
 /// "fails: WHAT = VALUE, limit LIMIT", a line.
-std::string failure(const std::string& what, const std::string& value, const std::string& limit);
+inline std::string failure(const std::string& what, const std::string& value, const std::string& limit) {
+    return fmt::format("fails: {} = {}, limit {}\n", what, value, limit);
+}
 
 }  // namespace barycert::cli

@@ -1,8 +1,5 @@
 // barycert sample, resample: the fields of a mesh at points, on a regular grid, or at the nodes of another mesh.
 
-#include <algorithm>
-#include <cmath>
-
 #include "barycert/base/nearest_name.hpp"
 #include "reports.hpp"
 

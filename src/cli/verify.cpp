@@ -1,7 +1,5 @@
 // barycert verify: results of any tool, held against the exact ones.
 
-#include <fmt/format.h>
-
 #include "reports.hpp"
 
 namespace barycert::cli {

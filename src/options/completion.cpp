@@ -12,10 +12,9 @@
 namespace barycert::cli {
 namespace {
 
-std::string in_quotes(std::string_view text) {
-    std::string out = "'";
-    for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return out + '\'';
+std::string in_quotes(std::string text) {
+    base::replace_all(text, "'", "'\\''");
+    return "'" + text + "'";
 }
 
 /// A name of a function made of the path of a command: "_barycert_render_iso".
@@ -32,10 +31,6 @@ std::string summary(std::string_view text) {
     std::string out(text.substr(0, end));
     std::replace(out.begin(), out.end(), '\n', ' ');
     return out;
-}
-
-std::string alternatives(const std::vector<std::string>& patterns) {
-    return base::joined(patterns, " | ", in_quotes);
 }
 
 std::string words_of(const OptionEntry& option) {
@@ -147,7 +142,7 @@ std::string bash_completion(const CommandEntry& program) {
     });
     std::string cases;
     for (const auto& [source, patterns] : values)
-        cases += fmt::format("        {})\n            {} ;;\n", alternatives(patterns), source);
+        cases += fmt::format("        {})\n            {} ;;\n", base::joined(patterns, " | ", in_quotes), source);
     // Options of commands below: the words before the last name the command.
     std::string descend;
     if (!paths.empty())
@@ -159,7 +154,7 @@ std::string bash_completion(const CommandEntry& program) {
         esac
     done
 )",
-                              alternatives(paths));
+                              base::joined(paths, " | ", in_quotes));
     // bash makes words of their own of the parts of --option=value.
     return fmt::format(R"(# Completion for bash; generated from the options of {name}.
 {function}() {{

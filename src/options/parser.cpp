@@ -1,9 +1,6 @@
 #include "options/parser.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <array>
 #include <cctype>
 
 #include "barycert/base/nearest_name.hpp"
@@ -113,10 +110,6 @@ CLI::Validator one_of(const std::vector<std::string>& words) {
                                    meant);
             },
             ""};
-}
-
-std::string joined(const std::vector<std::string>& words) {
-    return fmt::format("{}", fmt::join(words, "|"));
 }
 
 std::string usage_error(const CLI::App& app, const std::exception& error, const std::string& rest,

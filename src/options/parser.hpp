@@ -1,11 +1,11 @@
 /// Around the parser of options: options of a few words, and what is told of those that do not exist.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace barycert::cli {
@@ -14,7 +14,9 @@ namespace barycert::cli {
 CLI::Validator one_of(const std::vector<std::string>& words);
 
 /// "a|b|c", the type of an option that takes these words: command_table() reads them there again.
-std::string joined(const std::vector<std::string>& words);
+inline std::string joined(const std::vector<std::string>& words) {
+    return fmt::format("{}", fmt::join(words, "|"));
+}
 
 /// What the parser's message says, with a remedy: `did you mean "--output"? ` before the rest for the first word that
 /// looks like an option and is none of the command it was given to; the rest alone if there is no such word, or no

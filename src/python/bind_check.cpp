@@ -24,8 +24,7 @@ Shared check_of(const MeshObject& mesh, bool delaunay, std::size_t examples, std
 }
 
 /// A tuple of the numbers that are used.
-template <std::size_t n>
-py::tuple used(const std::array<Mesh::Index, n>& all) {
+py::tuple used(const auto& all) {
     py::list list;
     for (const Mesh::Index i : all) {
         if (i >= 0) list.append(i);

@@ -1,5 +1,3 @@
-#include "barycert/check.hpp"
-#include "barycert/weights.hpp"
 #include "bindings.hpp"
 
 namespace barycert::python {
@@ -95,51 +93,47 @@ py::list notes_of(const MeshObject& mesh) {
     return list_of(mesh.mesh().notes, [](const Note& note) { return std::pair(message(note), note.important); });
 }
 
-/// The figures of CurvedCells, and what to warn of: empty if no cell is curved, or all are taken as they are.
-std::pair<py::dict, std::string> curved_of(const MeshObject& object, const std::string& file, Curved how) {
-    CurvedCells curved = measure_curved(object.mesh(), file, how).value();
-    curved.mapped = !object.geometry()->options.straight_sides;
-    return {py::dict("cells"_a = curved.cells, "max_deviation"_a = curved.max_deviation,
-                     "rounded_cells"_a = curved.rounded_cells, "max_rounded"_a = curved.max_rounded),
-            curved.cells == 0 || curved.mapped ? std::string() : message(curved)};
+py::dict curved_of(const MeshObject& object) {
+    const CurvedCells c = measure_curved(object.mesh(), "", Curved::isoparametric).value();
+    return py::dict("cells"_a = c.cells, "max_deviation"_a = c.max_deviation, "rounded_cells"_a = c.rounded_cells,
+                    "max_rounded"_a = c.max_rounded);
 }
 
-/// How points are located in cells that are no straight simplices: before anything is.
+/// How points are located in cells that are no straight simplices: before anything is. Returns what to warn of: empty
+/// if no cell is curved, or all are taken as they are.
 std::string set_cells(const MeshObject& object, const std::string& file, Curved curved,
                       CellInterpolation interpolation) {
     object.geometry()->options.straight_sides = curved != Curved::isoparametric;
     object.geometry()->options.interpolation = interpolation;
-    return curved_of(object, file, curved).second;
+    const CurvedCells found = measure_curved(object.mesh(), file, curved).value();
+    return found.cells == 0 || curved == Curved::isoparametric ? std::string() : message(found);
+}
+
+auto arrays_of(auto& shapes) {
+    auto& [types, ends, nodes, face_ends, ring_ends, rings, parts, inside] = shapes;
+    return std::tie(types, ends, nodes, face_ends, ring_ends, rings, parts, inside);
 }
 
 /// What points, cells and fields do not tell, to be pickled: how cells are taken, and the shapes that they are parts
 /// of.
 py::tuple taken(const MeshObject& object) {
     const BuildOptions& how = object.geometry()->options;
-    const Mesh::Shapes& s = object.mesh().shapes;
-    const auto copy = [](const auto& numbers) { return owned(std::decay_t<decltype(numbers)>(numbers)); };
-    return py::make_tuple(how.straight_sides, how.interpolation == CellInterpolation::multilinear, copy(s.types),
-                          copy(s.ends), copy(s.nodes), copy(s.face_ends), copy(s.ring_ends), copy(s.rings),
-                          copy(s.parts), copy(s.inside));
+    const auto with_arrays = [&]<class... T>(const std::vector<T>&... of) {
+        const bool multilinear = how.interpolation == CellInterpolation::multilinear;
+        return py::make_tuple(how.straight_sides, multilinear, owned(std::vector<T>(of))...);
+    };
+    return std::apply(with_arrays, arrays_of(object.mesh().shapes));
 }
 
 void take(const MeshObject& object, const py::tuple& taken) {
     object.geometry()->options.straight_sides = taken[0].cast<bool>();
     if (taken[1].cast<bool>()) object.geometry()->options.interpolation = CellInterpolation::multilinear;
-    Mesh::Shapes& s = object.geometry()->data.shapes;
     std::size_t next = 2;
     const auto get = [&]<class T>(std::vector<T>& to) {
         const auto from = taken[next++].cast<py::array_t<T>>();
         to.assign(from.data(), from.data() + from.size());
     };
-    get(s.types);
-    get(s.ends);
-    get(s.nodes);
-    get(s.face_ends);
-    get(s.ring_ends);
-    get(s.rings);
-    get(s.parts);
-    get(s.inside);
+    std::apply([&](auto&... arrays) { (get(arrays), ...); }, arrays_of(object.geometry()->data.shapes));
 }
 
 MeshObject read(const std::string& path, std::optional<std::size_t> number, bool last, std::optional<double> time) {
@@ -167,13 +161,6 @@ std::vector<Field>& MeshObject::fields(bool of_cells) {
     // Samplers and arrays that look at the fields keep them as they are.
     if (fields_.use_count() > 1) fields_ = std::make_shared<Mesh>(*fields_);
     return of_cells ? fields_->cell_fields : fields_->point_fields;
-}
-
-Mesh MeshObject::whole() const {
-    Mesh all = mesh();
-    all.point_fields = fields_->point_fields;
-    all.cell_fields = fields_->cell_fields;
-    return all;
 }
 
 std::shared_ptr<BoundSampler> MeshObject::sampler(const std::vector<std::string>& names, const Progress& progress) {
@@ -207,13 +194,10 @@ void bind_mesh(py::module_& module) {
         .def_property_readonly("cell_numbers", [](Object m) { return if_any(m, m.mesh().cell_numbers); })
         .def_property_readonly("point_markers", [](Object m) { return if_any(m, m.mesh().point_markers); })
         .def_property_readonly("notes", &notes_of)
-        .def("set_cells",
-             [](Object m, const std::string& file, const std::string& curved, const std::string& interpolation) {
-                 return set_cells(m, file, words<Curved>.at(curved), words<CellInterpolation>.at(interpolation));
-             })
+        .def("set_cells", &set_cells)
         .def("taken", &taken)
         .def("take", &take)
-        .def("curved", [](Object m) { return curved_of(m, "", Curved::isoparametric).first; })
+        .def("curved", &curved_of)
         .def("field_names", &field_names)
         .def("field", &field_named)
         .def("set_field", &set_field)

@@ -142,7 +142,6 @@ Grid grid_of(int axes, const std::array<std::int64_t, 3>& counts, const std::arr
     return grid_over(axes, counts, low, high).value();
 }
 
-/// The coordinates along an axis.
 py::array coordinates(const Grid& grid, std::size_t k) {
     std::vector<double> axis(static_cast<std::size_t>(grid.counts.at(k)));
     for (std::size_t i = 0; i < axis.size(); ++i) axis[i] = grid.coordinate(k, static_cast<std::int64_t>(i));

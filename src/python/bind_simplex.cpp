@@ -1,4 +1,3 @@
-#include "barycert/weights.hpp"
 #include "bindings.hpp"
 
 namespace barycert::python {

@@ -1,6 +1,3 @@
-#include <limits>
-
-#include "barycert/check.hpp"
 #include "barycert/surface_locator.hpp"
 #include "bindings.hpp"
 

@@ -245,7 +245,12 @@ public:
     std::vector<Field>& fields(bool of_cells);
 
     /// The mesh with its fields: a copy.
-    Mesh whole() const;
+    Mesh whole() const {
+        Mesh all = mesh();
+        all.point_fields = fields_->point_fields;
+        all.cell_fields = fields_->cell_fields;
+        return all;
+    }
 
     /// Of the fields with these names, or all; the last one is kept.
     std::shared_ptr<BoundSampler> sampler(const std::vector<std::string>& names, const Progress& progress);

@@ -44,11 +44,8 @@ void bind_errors(py::module_& module) {
     });
     module.def(
         "fail",
-        [](std::string what, std::string expected, std::string found, std::string remedy) {
-            throw Exception({.what = std::move(what),
-                             .expected = std::move(expected),
-                             .found = std::move(found),
-                             .remedy = std::move(remedy)});
+        [](const std::string& what, const std::string& expected, const std::string& found, const std::string& remedy) {
+            throw Exception(file_error({}, what, expected, found, remedy));
         },
         py::arg("what"), py::arg("expected") = "", py::arg("found") = "", py::arg("remedy") = "",
         "Raises Error with these parts.");

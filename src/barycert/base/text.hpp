@@ -55,9 +55,10 @@ std::string joined(const Items& items, std::string_view between, Text text) {
     return all;
 }
 
-/// "1 row", "2 rows".
-inline std::string counted(std::uint64_t n, const std::string& what) {
-    return std::to_string(n) + ' ' + what + (n == 1 ? "" : "s");
+/// "1 row", "2 rows": the plural is the singular and an s, if none is given.
+inline std::string counted(std::uint64_t n, std::string_view one, std::string_view more = {}) {
+    const std::string number = std::to_string(n) + ' ';
+    return n != 1 && more.empty() ? number + std::string(one) + 's' : number + std::string(n == 1 ? one : more);
 }
 
 inline void replace_all(std::string& text, std::string_view from, std::string_view to) {
@@ -101,9 +102,8 @@ struct NamedLimit {
 inline NamedLimit named_limit(std::string_view text) {
     const std::size_t sign = text.find('>');
     if (sign == std::string_view::npos) return {text, 0};
-    std::optional<double> most = parse_double(text.substr(sign + 1));
-    if (most && !(*most >= 0)) most.reset();
-    return {text.substr(0, sign), most};
+    const std::optional<double> most = parse_double(text.substr(sign + 1));
+    return {text.substr(0, sign), most && *most >= 0 ? most : std::nullopt};
 }
 
 }  // namespace barycert::base

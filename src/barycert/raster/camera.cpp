@@ -1,5 +1,3 @@
-#include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numbers>
 
@@ -21,9 +19,7 @@ Error no_camera(const std::string& what, const std::string& expected, const std:
 }
 
 std::string text_of(std::span<const double> numbers) {
-    std::string text;
-    for (const double x : numbers) text += (text.empty() ? "" : ", ") + base::shortest(x);
-    return text;
+    return base::joined(numbers, ", ", base::shortest);
 }
 
 /// The direction of v with length 1, whatever its length was; nothing if it is zero or not finite.
@@ -95,12 +91,10 @@ Result<Matrix4> perspective(double fovy, double aspect, double near, double far)
         return no_camera("the depth of sight", "0 < near < far, finite",
                          base::shortest(near) + " and " + base::shortest(far));
     const double scale = 1 / std::tan(fovy * (std::numbers::pi / 360));
-    Matrix4 m{{}};
-    m.m[0] = scale / aspect;
-    m.m[5] = scale;
-    m.m[10] = (far + near) / (near - far);
-    m.m[11] = 2 * far * (near / (near - far));
-    m.m[14] = -1;
+    const Matrix4 m{{scale / aspect, 0, 0, 0,                                             //
+                     0, scale, 0, 0,                                                      //
+                     0, 0, (far + near) / (near - far), 2 * far * (near / (near - far)),  //
+                     0, 0, -1, 0}};
     return finite_matrix(m, "the perspective");
 }
 
@@ -110,9 +104,10 @@ Result<Matrix4> orthographic(double left, double right, double bottom, double to
     if (!base::all_finite(all) || left == right || bottom == top || near == far)
         return no_camera("the box of sight", "three pairs of different finite numbers", text_of(all));
     const double width = right - left, height = top - bottom, depth = far - near;
-    Matrix4 m;
-    m.m = {2 / width, 0, 0,          -(right + left) / width, 0, 2 / height, 0, -(top + bottom) / height,
-           0,         0, -2 / depth, -(far + near) / depth,   0, 0,          0, 1};
+    const Matrix4 m{{2 / width, 0, 0, -(right + left) / width,    //
+                     0, 2 / height, 0, -(top + bottom) / height,  //
+                     0, 0, -2 / depth, -(far + near) / depth,     //
+                     0, 0, 0, 1}};
     return finite_matrix(m, "the box of sight");
 }
 
@@ -134,15 +129,11 @@ Result<Matrix4> rotation(const Vector3& axis, double degrees) {
 }
 
 Matrix4 translation(const Vector3& by) {
-    Matrix4 m;
-    for (std::size_t k = 0; k < 3; ++k) m.m[4 * k + 3] = by[k];
-    return m;
+    return {{1, 0, 0, by[0], 0, 1, 0, by[1], 0, 0, 1, by[2], 0, 0, 0, 1}};
 }
 
 Matrix4 scaling(const Vector3& by) {
-    Matrix4 m;
-    for (std::size_t k = 0; k < 3; ++k) m.m[5 * k] = by[k];
-    return m;
+    return {{by[0], 0, 0, 0, 0, by[1], 0, 0, 0, 0, by[2], 0, 0, 0, 0, 1}};
 }
 
 std::array<double, 2> viewport(RasterSize size, double x, double y, double w, Rounding rounding) {

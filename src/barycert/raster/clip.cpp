@@ -7,8 +7,6 @@
 // difference of two products of differences, 4199 bits; times a double or a difference, and summed over three
 // vertices, that is less than 6302 bits, of 14704 that there are.
 
-#include <cmath>
-
 #include "barycert/base/finite.hpp"
 #include "barycert/core/scaled_double.hpp"
 #include "barycert/environment.hpp"

@@ -1,6 +1,3 @@
-#include <algorithm>
-#include <cmath>
-
 #include "barycert/base/finite.hpp"
 #include "barycert/base/strict_math.hpp"
 #include "barycert/environment.hpp"

@@ -69,7 +69,6 @@ Status check(const Scene& s) {
     return check_choices(s);
 }
 
-/// All vertices in clip space.
 Result<std::vector<double>> clip_positions(const Scene& s) {
     std::vector<double> clip(s.positions.size());
     for (std::size_t i = 0; i < clip.size(); i += 4) {

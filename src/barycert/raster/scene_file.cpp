@@ -2,7 +2,6 @@
 #include <cmath>
 #include <filesystem>
 #include <initializer_list>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -40,9 +39,8 @@ public:
         if (!value_.is_object()) fail("an object");
         for (const auto& [name, value] : value_.items()) {
             if (std::ranges::find(names, name) != names.end()) continue;
-            std::string all;
-            for (const char* known : names) all += (all.empty() ? "" : ", ") + std::string(known);
-            refuse((Json::json_pointer(place_) / name).to_string(), "one of the members " + all, base::quoted(name));
+            refuse((Json::json_pointer(place_) / name).to_string(),
+                   "one of the members " + base::joined(names, ", ", std::identity()), base::quoted(name));
         }
     }
 
@@ -81,7 +79,6 @@ public:
         return value_.get<std::string>();
     }
 
-    /// An array of `count` numbers.
     std::vector<double> numbers(std::size_t count) const {
         if (!value_.is_array() || value_.size() != count) fail("an array of " + std::to_string(count) + " numbers");
         std::vector<double> all;
@@ -96,9 +93,7 @@ public:
             const auto word = words.find(value_.get<std::string>());
             if (word != words.end()) return word->second;
         }
-        std::string all;
-        for (const auto& [word, meaning] : words) all += (all.empty() ? "\"" : ", \"") + word + '"';
-        fail("one of " + all);
+        fail("one of " + base::joined(words, ", ", [](const auto& word) { return '"' + word.first + '"'; }));
     }
 
     /// The same of a member, into `to`, if there is that member.
@@ -110,13 +105,12 @@ public:
     [[noreturn]] void fail(const std::string& expected) const { refuse(place(), expected, brief(value_)); }
 
     /// An Error of what was made of this value.
-    [[noreturn]] void fail(const Error& error) const {
-        Error told = error;
-        if (told.file.empty()) {
-            told.file = path_;
-            told.what = place_ + ": " + told.what;
+    [[noreturn]] void fail(Error error) const {
+        if (error.file.empty()) {
+            error.file = path_;
+            error.what = place_ + ": " + error.what;
         }
-        throw Exception(told);
+        throw Exception(std::move(error));
     }
 
 private:
@@ -350,10 +344,9 @@ std::vector<std::string> scene_files(const std::string& path) {
     const Result<std::string> text = raster::text_of_file(path);
     if (!text) return {};
     const raster::Json json = raster::Json::parse(*text, nullptr, false);
-    if (!json.is_object() || !json.contains("texture") || !json["texture"].is_object()) return {};
-    const raster::Json& texture = json["texture"];
-    if (!texture.contains("image") || !texture["image"].is_string()) return {};
-    return {(std::filesystem::path(path).parent_path() / texture["image"].get<std::string>()).string()};
+    const raster::Json::json_pointer image("/texture/image");
+    if (!json.contains(image) || !json.at(image).is_string()) return {};
+    return {(std::filesystem::path(path).parent_path() / json.at(image).get<std::string>()).string()};
 }
 
 }  // namespace barycert

@@ -9,14 +9,8 @@
 //                     each rounded once: off by less than 2^-21 of the largest of |U| along the row, divided, with
 //                     perspective, by (least of 1 / w) / (largest of 1 / w)
 // Nothing is fused, and the same is done on every target; only n differs.
-#include "barycert/raster.hpp"
-
-#include <algorithm>
 #include <bit>
-#include <cstdint>
 #include <type_traits>
-
-#include "barycert/raster/edge.hpp"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "barycert/raster/textured_lanes.cpp"
@@ -33,8 +27,6 @@ using Floats = hn::ScalableTag<float>;
 using Ints = hn::Rebind<std::int32_t, Floats>;
 using IntLanes = hn::Vec<Ints>;
 using FloatLanes = hn::Vec<Floats>;
-
-// Texture coordinates.
 
 /// How to get at the texels.
 struct Sheet {

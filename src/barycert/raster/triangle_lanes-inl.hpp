@@ -12,12 +12,6 @@
 // After the targets.
 #include <hwy/highway.h>
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <span>
-
 #include "barycert/raster/edge.hpp"
 #include "barycert/raster/textured.hpp"
 

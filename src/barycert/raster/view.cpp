@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numbers>
 
@@ -12,7 +10,6 @@
 #include "barycert/base/text.hpp"
 #include "barycert/base/vectors.hpp"
 #include "barycert/environment.hpp"
-#include "barycert/io/png/colour_map.hpp"
 #include "barycert/io/png/panels.hpp"
 
 namespace barycert {
@@ -67,7 +64,6 @@ Status check(const SurfaceView& s, const ViewOptions& o) {
     return Done{};
 }
 
-/// The value at a corner of a triangle.
 double value_at(const SurfaceView& s, std::size_t corner) {
     if (!s.point_values.empty()) return s.point_values[static_cast<std::size_t>(s.triangles[corner])];
     return s.triangle_values[corner / 3];
@@ -77,7 +73,6 @@ bool has_values(const SurfaceView& s) {
     return !s.point_values.empty() || !s.triangle_values.empty();
 }
 
-/// The least and the greatest of numbers.
 struct Range {
     double low = HUGE_VAL, high = -HUGE_VAL;
 
@@ -178,7 +173,7 @@ Range along(const Vector3& axis, std::span<const Vector3> points) {
 }
 
 /// The camera that sees all normalised points, in perspective, as near as the window allows.
-Result<Matrix4> fitting_camera(std::span<const Vector3> points, const ViewAxes& axes, double aspect) {
+Matrix4 fitting_camera(std::span<const Vector3> points, const ViewAxes& axes, double aspect) {
     const Range x = along(axes.right, points), y = along(axes.up, points), z = along(axes.towards, points);
     const double tangent = part * std::tan(0.5 * fovy * (std::numbers::pi / 180));
     // A point is in sight if its distance across is at most its distance along times the tangent.
@@ -194,18 +189,18 @@ Result<Matrix4> fitting_camera(std::span<const Vector3> points, const ViewAxes& 
                         t[0], t[1], t[2], -distance,    //
                         0, 0, 0, 1}};
     const double near = distance - z.high, far = distance - z.low;
-    const Result<Matrix4> projection = perspective(fovy, aspect, 0.9 * near, 1.1 * far);
-    if (!projection) return projection.error();
-    return *projection * view;
+    // No error can occur: 0 < near <= far, and points lie in a box of side 2.
+    return perspective(fovy, aspect, 0.9 * near, 1.1 * far).value() * view;
 }
 
 /// The same from above, without perspective.
-Result<Matrix4> fitting_map(std::span<const Vector3> points, double aspect) {
+Matrix4 fitting_map(std::span<const Vector3> points, double aspect) {
     const Range x = along({1, 0, 0}, points), y = along({0, 1, 0}, points);
     double half = std::max(x.half() / aspect, y.half()) / part;
     if (!(half > 0)) half = 1;
     return orthographic(x.middle() - half * aspect, x.middle() + half * aspect, y.middle() - half, y.middle() + half,
-                        -1, 1);
+                        -1, 1)
+        .value();  // no error can occur: half is above 0
 }
 
 /// How bright a triangle is: two-sided, from 0.35 to 1.
@@ -234,8 +229,8 @@ io::ColourBar short_bar(double low, double high, std::size_t height) {
 }
 
 /// The scene in a window that is `width` pixels wide.
-Result<Scene> scene_of(const SurfaceView& s, const ViewOptions& o, std::int32_t width, const ValueScale& scale,
-                       std::uint64_t& without_value) {
+Scene scene_of(const SurfaceView& s, const ViewOptions& o, std::int32_t width, const ValueScale& scale,
+               std::uint64_t& without_value) {
     Scene scene;
     scene.size = {width, o.size.height};
     scene.background = o.background;
@@ -245,10 +240,7 @@ Result<Scene> scene_of(const SurfaceView& s, const ViewOptions& o, std::int32_t 
     const std::vector<Vector3> points = normalised_corners(s);
     const ViewAxes axes = view_axes(o.azimuth, o.elevation);
     const double aspect = 1.0 * width / o.size.height;
-    const Result<Matrix4> camera =
-        s.dimension == 2 ? fitting_map(points, aspect) : fitting_camera(points, axes, aspect);
-    if (!camera) return camera.error();
-    scene.to_clip = *camera;
+    scene.to_clip = s.dimension == 2 ? fitting_map(points, aspect) : fitting_camera(points, axes, aspect);
     const Vector3 light = light_of(axes);
     const bool values = has_values(s);
     if (values) scene.texture = colour_texture();
@@ -288,10 +280,8 @@ Result<Image> draw_surface(const SurfaceView& surface, const ViewOptions& option
             "more than " + std::to_string(bar_width) + " by " + std::to_string(io::min_bar_height - 1) + " pixels",
             std::to_string(options.size.width) + " by " + std::to_string(options.size.height));
     ViewCounts told{{}, scale.low, scale.high, 0};
-    const Result<Scene> scene =
-        raster::scene_of(surface, options, options.size.width - bar_width, scale, told.without_value);
-    if (!scene) return scene.error();
-    Result<Image> drawn = render(*scene, &told.render);
+    const Scene scene = raster::scene_of(surface, options, options.size.width - bar_width, scale, told.without_value);
+    Result<Image> drawn = render(scene, &told.render);
     if (!drawn) return drawn;
     if (counts != nullptr) *counts = told;
     if (!with_bar) return drawn;

@@ -41,13 +41,6 @@ std::string uri_of(const std::string& path) {
            });
 }
 
-Json location_of(const CiOutcome& o, const std::string& kind) {
-    Json location;
-    if (!o.artifact.empty()) location["physicalLocation"]["artifactLocation"]["uri"] = uri_of(o.artifact);
-    put(location, "logicalLocations", Json::array({record("fullyQualifiedName", o.subject, "kind", kind)}));
-    return location;
-}
-
 /// GitHub's rule for the data of a workflow command; `in_property`: for its properties.
 std::string command_data(const std::string& text, bool in_property) {
     return coded(base::printable(text), [&](char c) { return c != '%' && !(in_property && (c == ':' || c == ',')); });
@@ -89,12 +82,14 @@ std::string ci_sarif(const CiReport& report) {
             rules.push_back(record("id", o.rule, "shortDescription", record("text", o.meaning)));
             at = ids.insert(ids.end(), o.rule);
         }
+        Json location;
+        if (!o.artifact.empty()) location["physicalLocation"]["artifactLocation"]["uri"] = uri_of(o.artifact);
+        put(location, "logicalLocations", Json::array({record("fullyQualifiedName", o.subject, "kind", report.kind)}));
         // The fingerprint stays the same from run to run, so that a system knows a result again.
         results.push_back(record("ruleId", o.rule, "ruleIndex", at - ids.begin(), "level",
                                  o.state == State::failed ? "error" : "note", "message",
-                                 record("text", o.subject + ": " + o.message), "locations",
-                                 Json::array({location_of(o, report.kind)}), "partialFingerprints",
-                                 record("subjectAndName/v1", o.subject + " " + o.name)));
+                                 record("text", o.subject + ": " + o.message), "locations", Json::array({location}),
+                                 "partialFingerprints", record("subjectAndName/v1", o.subject + " " + o.name)));
     }
     const Json driver = record("name", "barycert", "version", report.environment.version, "rules", rules);
     const Json run = record("tool", record("driver", driver), "invocations",

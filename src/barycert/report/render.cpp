@@ -80,13 +80,6 @@ Document render_document(const RenderReport& s, const Environment& environment) 
 
 // Contours and slices.
 
-/// What is cut, and at what.
-std::string level(const ContourReport& s) {
-    return s.value ? s.field + " = " + base::shortest(*s.value)
-                   : fmt::format("plane {},{}", coordinates(s.plane->normal, 3, base::shortest, ","),
-                                 base::shortest(s.plane->offset));
-}
-
 void tell_surface(Document& d, const ContourReport& s) {
     const CutCounts& n = s.counts;
     if (s.parts == 0)
@@ -151,7 +144,9 @@ Document contour_document(const ContourReport& s, const Environment& environment
                MEMBERS(cut.tiers, double_double, exact), "nan", cut.tiers.not_finite),
         MEMBERS(s, fields), MEMBERS(s.file, left_out, renamed), MEMBERS(s, notes));
     d.curved(s.curved);
-    d.name("cut", level(s));
+    d.name("cut", s.value ? s.field + " = " + base::shortest(*s.value)
+                          : fmt::format("plane {},{}", coordinates(s.plane->normal, 3, base::shortest, ","),
+                                        base::shortest(s.plane->offset)));
     if (s.pixels) {
         const PixelGrid& p = *s.pixels;
         const SliceCounts& n = s.picture;

@@ -162,14 +162,18 @@ void tell_families(Document& d, const AuditReport& r) {
           Tone::soft);
 }
 
-Item witness_item(const AuditReport& r, const KernelResult& k, const Witness& w, const TerminalStyle& style) {
-    Item item{.title = w.reason + ": " + finding_sentence(k, w), .lines = {{place_of(w) + ": " + shows(w)}}};
-    if (std::string replay = replay_command(r, k, w, style); !replay.empty())
-        item.lines.push_back({std::move(replay), true});
-    return item;
+/// `folds`: all but the first, on a page.
+void tell_witnesses_of(Document& d, const AuditReport& r, const KernelResult& k, const TerminalStyle& style,
+                       bool folds) {
+    if (k.witnesses.empty() && k.total.not_run == 0) d.say("No witness: every weight and value is correctly rounded.");
+    for (const Witness& w : k.witnesses) {
+        Item item{.title = w.reason + ": " + finding_sentence(k, w), .lines = {{place_of(w) + ": " + shows(w)}}};
+        if (std::string replay = replay_command(r, k, w, style); !replay.empty())
+            item.lines.push_back({std::move(replay), true});
+        item.folds = folds && &w != &k.witnesses.front();
+        d.add(std::move(item));
+    }
 }
-
-constexpr std::string_view no_witness = "No witness: every weight and value is correctly rounded.";
 
 /// Of each kernel the witnesses of all its findings.
 void tell_witnesses(Document& d, const AuditReport& r, const TerminalStyle& style) {
@@ -181,12 +185,7 @@ void tell_witnesses(Document& d, const AuditReport& r, const TerminalStyle& styl
         if (!k.kernel.fails.empty()) d.say(k.kernel.fails, Tone::soft);
         if (!k.kernel.note.empty()) d.say(k.kernel.note);
         if (k.total.not_run != 0) d.say(fmt::format("Given up: {} cases were not run.", k.total.not_run));
-        if (k.witnesses.empty() && k.total.not_run == 0) d.say(std::string(no_witness));
-        for (const Witness& w : k.witnesses) {
-            Item item = witness_item(r, k, w, style);
-            item.folds = &w != &k.witnesses.front();
-            d.add(std::move(item));
-        }
+        tell_witnesses_of(d, r, k, style, true);
     }
 }
 
@@ -209,8 +208,7 @@ void tell_kernel(Document& d, const AuditReport& r, const TerminalStyle& style) 
     d.section(k.kernel.raised != nullptr ? "Worst case of each finding:"
                                          : "Worst case of each finding, and the command that replays it:");
     if (!incidents(k.total).empty()) d.say(incidents(k.total), Tone::bad);
-    if (k.witnesses.empty() && k.total.not_run == 0) d.say(std::string(no_witness));
-    for (const Witness& w : k.witnesses) d.add(witness_item(r, k, w, style));
+    tell_witnesses_of(d, r, k, style, false);
 }
 
 void tell_kernels(Document& d, const AuditReport& r) {

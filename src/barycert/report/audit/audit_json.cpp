@@ -2,7 +2,6 @@
 
 #include "barycert/audit/asking.hpp"
 #include "barycert/audit/json_members.hpp"
-#include "barycert/base/json_text.hpp"
 #include "barycert/report/audit/audit_words.hpp"
 
 namespace barycert {

@@ -46,19 +46,6 @@ std::string kernel_words(const TerminalStyle& style) {
 
 }  // namespace
 
-std::string percent(const Share& share) {
-    return share.whole == 0 ? "-" : percent(share.part, share.whole);
-}
-
-Cell share_cell(const Share& share, bool red) {
-    return {percent(share), share.whole == 0 ? -1 : static_cast<double>(share.part) / static_cast<double>(share.whole),
-            red && share.part != 0 ? Tone::bad : Tone::plain};
-}
-
-Cell number_cell(double x) {
-    return {brief(x), x};
-}
-
 Share inside_called_outside(const KernelStatistics& s) {
     return {count_of(s, Finding::false_outside), exactly(s, Region::interior) + exactly(s, Region::boundary)};
 }
@@ -69,10 +56,6 @@ Share outside_called_inside(const KernelStatistics& s) {
 
 bool perfect(const KernelStatistics& s) {
     return without_finding(s) && s.errors.worst.value <= 0;
-}
-
-Share unanswered(const KernelStatistics& s) {
-    return {s.errors.unanswered(), s.errors.total()};
 }
 
 double worst_on_meshes(const AuditReport& report, const KernelResult& k) {
@@ -157,11 +140,6 @@ std::string finding_sentence(const KernelResult& k, const Witness& w) {
                        finding_texts[static_cast<std::size_t>(*finding)].meaning);
 }
 
-std::string place_of(const Witness& w) {
-    return fmt::format("{}, case {}{}", w.family, w.index,
-                       w.cell < 0 ? "" : fmt::format(", cell {} of {}", w.cell, w.mesh));
-}
-
 std::string shows(const Witness& w) {
     if (w.reason.ends_with("_ulp")) return brief(w.magnitude) + " ulps";
     if (!w.detail.empty()) return w.detail;
@@ -199,12 +177,6 @@ std::string oracle_line(const OracleCounts& o) {
                     {o.cgal, "by CGAL"}},
                    ", ") +
            (confirmed.empty() ? "" : "; confirmed: " + confirmed + ", 0 disagreements");
-}
-
-Json oracles_json(OracleChoice choice, const OracleCounts& o) {
-    // With a disagreement there is no report.
-    return record("choice", choice, MEMBERS(o, core, integers, wide, cgal, also_integers, also_cgal), "disagreements",
-                  0);
 }
 
 }  // namespace barycert::report

@@ -13,17 +13,27 @@ inline std::uint64_t count_of(const KernelStatistics& s, Finding f) {
 struct Share {
     std::uint64_t part = 0, whole = 0;
 };
-std::string percent(const Share& share);  ///< "-" if there are none
+/// "-" if there are none.
+inline std::string percent(const Share& share) {
+    return share.whole == 0 ? "-" : percent(share.part, share.whole);
+}
 
 /// Cells of tables that sort: a share in per cent, red where it is not none if `red`; a magnitude.
-Cell share_cell(const Share& share, bool red = false);
-Cell number_cell(double x);
+inline Cell share_cell(const Share& share, bool red = false) {
+    return {percent(share), share.whole == 0 ? -1 : static_cast<double>(share.part) / static_cast<double>(share.whole),
+            red && share.part != 0 ? Tone::bad : Tone::plain};
+}
+inline Cell number_cell(double x) {
+    return {brief(x), x};
+}
 
 /// Points exactly in the closed cell that the kernel calls outside; points outside that it says are in the closed cell.
 Share inside_called_outside(const KernelStatistics& s);
 Share outside_called_inside(const KernelStatistics& s);
 /// Cases without a finite answer, of those whose simplex is not degenerate.
-Share unanswered(const KernelStatistics& s);
+inline Share unanswered(const KernelStatistics& s) {
+    return {s.errors.unanswered(), s.errors.total()};
+}
 /// The largest error over the families that draw from meshes, of cases with a finite answer; -1 if there are none.
 double worst_on_meshes(const AuditReport& report, const KernelResult& k);
 /// "<1e-13": 99 % of the cases with an answer are below; "0"; ">=100"; "-": no such cases.
@@ -43,7 +53,10 @@ std::string incidents(const KernelStatistics& s);
 /// What the witness's kind of finding means, and of a finding how often the kernel has it.
 std::string finding_sentence(const KernelResult& k, const Witness& w);
 /// Where a witness comes from: family, case, cell of a mesh.
-std::string place_of(const Witness& w);
+inline std::string place_of(const Witness& w) {
+    return fmt::format("{}, case {}{}", w.family, w.index,
+                       w.cell < 0 ? "" : fmt::format(", cell {} of {}", w.cell, w.mesh));
+}
 std::string shows(const Witness& w);
 /// The command that shows the witnesses of style.witness_path with that kernel and reason.
 std::string replay_from_file(const std::string& kernel, const std::string& reason, const TerminalStyle& style);
@@ -56,7 +69,11 @@ std::string oracle_line(const OracleCounts& o);
 /// What other programs measured, for a page: the flags matrix, the league of systems.
 void tell_others(Document& d, const std::vector<OtherResults>& others);
 
-Json oracles_json(OracleChoice choice, const OracleCounts& o);
+inline Json oracles_json(OracleChoice choice, const OracleCounts& o) {
+    // With a disagreement there is no report.
+    return record("choice", choice, MEMBERS(o, core, integers, wide, cgal, also_integers, also_cgal), "disagreements",
+                  0);
+}
 
 // Pictures of a page, as markup.
 

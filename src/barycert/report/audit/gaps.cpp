@@ -86,7 +86,6 @@ Json claims_json(const ClaimResult& r, int dimension) {
 
 Document gaps_document(const GapsReport& r) {
     Document d;
-    d.indent = 1;
     d.curved(r.curved);
     d.say(environment_line(r.environment));
     const char* const known = r.verdict == Verdict::certified       ? "certified to be a partition"
@@ -115,7 +114,6 @@ Document gaps_document(const GapsReport& r) {
 
 Document drift_document(const DriftReport& r) {
     Document d;
-    d.indent = 1;
     d.say(
         fmt::format("seed {}, {} cases per size. Largest error of the value, in ulps of the exact one, by the size of "
                     "the triangle in pixels.",
@@ -148,7 +146,6 @@ Document drift_document(const DriftReport& r) {
 
 Document texels_document(const std::vector<TexelResult>& results) {
     Document d;
-    d.indent = 1;
     Listing table{.columns = {left("rule", 22), left("wrap", 7), right("cases", 7), right("past\nthe end", 9),
                               right("before\nthe start", 9), right("wrong\ntexel", 9)}};
     std::vector<Item> items;

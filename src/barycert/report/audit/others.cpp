@@ -160,7 +160,7 @@ void tell_matrix(Document& d, const FlagsMatrix& m, std::string heading, std::ui
     d.add(std::move(table));
 }
 
-void tell_flags(Document& d, const FlagsMatrix& m) {
+void tell_results(Document& d, const FlagsMatrix& m) {
     const std::string same = joined(columns_of(m, false), "; ", [&](std::size_t c) { return name_of(m.columns[c]); });
     d.section("Formulas under compiler flags");
     d.say(fmt::format("From `./run flags`: {} cases of each of {} families, seed {}. {}. In per cent of the cases of a "
@@ -187,7 +187,7 @@ Row standing_row(const SystemsLeague::Standing& s) {
              {brief_time(ns), ns}}};
 }
 
-void tell_systems(Document& d, const SystemsLeague& league) {
+void tell_results(Document& d, const SystemsLeague& league) {
     d.section("Systems: point location and interpolation");
     d.say(
         fmt::format("From `./run systems`: {} points of each set on each mesh, seed {}, held against the exact owners "
@@ -216,10 +216,7 @@ void tell_systems(Document& d, const SystemsLeague& league) {
 }  // namespace
 
 void tell_others(Document& d, const std::vector<OtherResults>& others) {
-    for (const OtherResults& o : others) {
-        if (const auto* const flags = std::get_if<FlagsMatrix>(&o)) tell_flags(d, *flags);
-        if (const auto* const systems = std::get_if<SystemsLeague>(&o)) tell_systems(d, *systems);
-    }
+    for (const OtherResults& o : others) std::visit([&](const auto& results) { tell_results(d, results); }, o);
 }
 
 }  // namespace report

@@ -82,12 +82,10 @@ double error_bits(double units) {
 std::vector<const KernelResult*> candidates(const AuditReport& report, Simplex simplex) {
     std::vector<const KernelResult*> list;
     for (const KernelResult& k : report.kernels) {
-        const auto bins = k.prediction.bins();
-        const bool off = std::ranges::any_of(bins, [](const auto& bin) { return bin.worst > 0.5; });
+        const bool off = std::ranges::any_of(k.prediction.bins(), [](const auto& bin) { return bin.worst > 0.5; });
         if (k.kernel.simplex == simplex && off) list.push_back(&k);
     }
-    const auto worst = [](const KernelResult* k) { return k->prediction.worst_factor(); };
-    std::ranges::stable_sort(list, std::greater<>(), worst);
+    std::ranges::stable_sort(list, std::greater<>(), [](const auto* k) { return k->prediction.worst_factor(); });
     return list;
 }
 

@@ -132,7 +132,6 @@ Document rules_document(std::string title, const auto& audit, const auto& famili
                         const auto& rule_json, const auto& worst_of) {
     Document d;
     d.title = d.heading = std::move(title);
-    d.indent = 1;
     d.script = true;
     const auto wrong = std::ranges::count_if(audit.results, [](const auto& r) { return r.total.wrong_cases() != 0; });
     d.add(Headline{.tone = wrong == 0 ? Tone::good : Tone::bad,

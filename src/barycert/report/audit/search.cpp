@@ -48,7 +48,6 @@ void tell_finds(Document& d, const SearchReport& r, const TerminalStyle& style) 
 
 Document search_document(const SearchReport& r, const TerminalStyle& style) {
     Document d;
-    d.indent = 1;
     d.say(environment_line(r.environment));
     d.say(fmt::format("{}: {} cases in {} walks, seed {}, exponents {} to {}, {:.1f} s", r.kernel.name, r.steps,
                       r.walks, r.seed, r.min_exponent, r.max_exponent, r.seconds));
@@ -123,7 +122,6 @@ void tell_catches(Document& d, const MutantReport& r) {
 
 Document mutants_document(const MutantReport& r) {
     Document d;
-    d.indent = 1;
     d.say(environment_line(r.environment));
     const std::uint64_t caught = r.caught(), all = r.mutants.size();
     d.say(fmt::format("{} of {} mutants caught; seed {}, {} cases per family and simplex, {:.1f} s", caught, all,
@@ -153,7 +151,7 @@ std::string search_text(const SearchReport& report, const TerminalStyle& style) 
 
 std::string search_json(const SearchReport& report) {
     const ExactEnvironment environment;
-    return data_text(search_document(report, {}));
+    return base::json_text(search_document(report, {}).data, 1);
 }
 
 AUDIT_TEXT_AND_JSON(mutants, MutantReport)

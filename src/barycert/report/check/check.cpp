@@ -201,11 +201,10 @@ void tell_whole_mesh(Document& d, const CheckReport& r) {
             fmt::format("{} isoparametric maps: Jacobian positive {}, negative {}", m.cells, m.positive, m.negative);
         if (m.changing != 0) text += fmt::format(", changing its sign or zero {}", m.changing);
         if (m.unknown != 0) text += fmt::format(", not known {}", m.unknown);
-        std::vector<std::string> first;
-        for (const Mesh::Index cell : m.examples) first.push_back(std::to_string(r.cell_number(cell)));
-        if (!first.empty())
-            text += fmt::format("; cells {}{}", fmt::join(first, ", "),
-                                m.changing + m.unknown > m.examples.size() ? ", ..." : "");
+        if (!m.examples.empty())
+            text += "; cells " +
+                    joined(m.examples, ", ", [&](Mesh::Index cell) { return std::to_string(r.cell_number(cell)); }) +
+                    (m.changing + m.unknown > m.examples.size() ? ", ..." : "");
         if (m.split_facets != 0)
             text += fmt::format("; {} of {} at curved cells NOT the same in both cells, up to {:.2g} apart",
                                 m.split_facets, counted(m.curved_facets, "facet"), m.max_gap);
@@ -214,7 +213,7 @@ void tell_whole_mesh(Document& d, const CheckReport& r) {
         if (!m.split.empty())
             text += fmt::format(", the first between cells {} and {}", r.cell_number(m.split[0][0]),
                                 r.cell_number(m.split[0][1]));
-        d.name("maps", text, first.empty() && m.split_facets == 0 ? Tone::plain : Tone::strong);
+        d.name("maps", text, m.examples.empty() && m.split_facets == 0 ? Tone::plain : Tone::strong);
     }
     if (r.delaunay) d.add(Named{"Delaunay", delaunay_sentences(r)});
     if (r.conformity) d.add(Named{"PLC", conformity_sentences(r, 40)}, For::terminal);
@@ -250,13 +249,12 @@ void tell_regions(Document& d, const SurfaceReport& s) {
     if (s.regions.empty()) return;
     Listing table{.columns = {left("region", 6), right("volume", 22), right("shell", 7), left("points in it", 12)}};
     for (std::size_t i = 0; i < std::min(s.regions.size(), max_rows); ++i) {
-        std::vector<std::string> seeds;
-        for (const PlcSeed& seed : s.seeds) {
-            if (seed.region == static_cast<std::int64_t>(i))
-                seeds.push_back(fmt::format("{} {}", seed.hole ? "hole" : "region", seed.number));
-        }
+        const std::string seeds = joined(s.seeds, ", ", [&](const PlcSeed& seed) {
+            if (seed.region != static_cast<std::int64_t>(i)) return std::string();
+            return fmt::format("{} {}", seed.hole ? "hole" : "region", seed.number);
+        });
         table.rows.push_back({{std::to_string(i), base::shortest(s.regions[i].volume), or_none(s.regions[i].shell),
-                               seeds.empty() ? std::string("-") : fmt::format("{}", fmt::join(seeds, ", "))}});
+                               seeds.empty() ? "-" : seeds}});
     }
     d.table(std::move(table), "Regions: what the triangles enclose, less what lies in it");
     if (s.regions.size() > max_rows) d.say(fmt::format("And {} more.", s.regions.size() - max_rows), Tone::soft);

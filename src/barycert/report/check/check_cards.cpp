@@ -1,7 +1,6 @@
 // Pictures of cells.
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <limits>
 
 #include "barycert/base/finite.hpp"
@@ -50,7 +49,6 @@ Scene scene_of(const Mesh& mesh, const Exhibit& e) {
     return scene;
 }
 
-/// The box of a scene in a view.
 Eigen::AlignedBox2d frame(const Scene& scene, const View& view) {
     Eigen::AlignedBox2d box;
     for (const Vector& p : scene.points) box.extend(view(p).head<2>());
@@ -61,7 +59,7 @@ std::vector<Shown> views_of(const Mesh& mesh, const Scene& scene) {
     std::vector<Shown> views;
     if (mesh.dimension == 2) {
         views.push_back({"as it lies", {}});
-        const View along = from_above(scene.points);  // the longest way to the right
+        const View along = broad_view(scene.points, true);  // the longest way to the right
         const Eigen::Vector2d size = frame(scene, along).sizes();
         if (size[1] < 0.1 * size[0] && size[1] > 0) {
             const double factor = 0.5 * size[0] / size[1];
@@ -74,8 +72,8 @@ std::vector<Shown> views_of(const Mesh& mesh, const Scene& scene) {
         const Mesh::Index from = scene.nodes[edge[0]], to = scene.nodes[edge[1]];
         if (from != to) views.push_back({fmt::format("along edge {}–{}", from, to), along_edge(scene.points, edge)});
     }
-    if (views.empty()) views.push_back({"from the side", from_the_side(scene.points)});
-    views.push_back({"from above", from_above(scene.points)});
+    if (views.empty()) views.push_back({"from the side", broad_view(scene.points, false)});
+    views.push_back({"from above", broad_view(scene.points, true)});
     return views;
 }
 

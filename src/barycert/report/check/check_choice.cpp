@@ -8,7 +8,6 @@
 
 #include "barycert/report/check/check_pictures.hpp"
 #include "barycert/report/check/check_words.hpp"
-#include "barycert/report/common/terminal_text.hpp"
 
 namespace barycert::report {
 namespace {
@@ -29,27 +28,11 @@ Cells drawn_of(const Mesh& mesh, Cells cells) {
     return cells;
 }
 
-Exhibit of_contact(const CellContact& c, const Cells& cells) {
-    return {.cells = cells,
-            .what = c.overlap ? "overlapping cells" : fmt::format("cells that {} where they must not", touch_text(c)),
-            .contact = &c,
-            .defect = true};
-}
-
 Exhibit of_place(DefectKind problem, const DefectPlace& p, const Cells& cells) {
     std::string what(defect_text(problem).name);
     std::ranges::replace(what, '_', ' ');
     if (*p.detail != '\0') what += fmt::format(" ({})", p.detail);
     return {.cells = cells, .what = std::move(what), .defect = true};
-}
-
-/// Directions of least, middle and largest extent of the points, orthonormal.
-Eigen::Matrix3d extents(const std::vector<Vector>& points) {
-    const Vector sum = std::accumulate(points.begin(), points.end(), Vector(Vector::Zero()));
-    const Vector mean = sum / static_cast<double>(std::max<std::size_t>(points.size(), 1));
-    Eigen::Matrix3d m = Eigen::Matrix3d::Zero();
-    for (const Vector& p : points) m += (p - mean) * (p - mean).transpose();
-    return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(m).eigenvectors();
 }
 
 /// The directions to the other two corners of a tetrahedron, seen along an edge.
@@ -91,7 +74,10 @@ std::vector<Exhibit> defect_cells(const CheckReport& report, const Mesh& mesh, s
     const auto add = [](std::vector<Exhibit>& queue, Exhibit e) {
         if (e.cells[0] >= 0 && queue.size() < longest_queue) queue.push_back(std::move(e));
     };
-    for (const CellContact& c : report.contacts) add(queues[c.overlap ? 0 : 1], of_contact(c, drawn_of(mesh, c.cells)));
+    for (const CellContact& c : report.contacts) {
+        std::string what = c.overlap ? "overlapping cells" : "cells that " + touch_text(c) + " where they must not";
+        add(queues[c.overlap ? 0 : 1], {drawn_of(mesh, c.cells), std::move(what), &c, true});
+    }
     for (const Defect& f : report.defects) {
         if (!f.breaks()) continue;
         std::vector<Exhibit>& queue = queues.emplace_back();
@@ -116,11 +102,6 @@ std::vector<Exhibit> defect_cells(const CheckReport& report, const Mesh& mesh, s
         }
     }
     return exhibits;
-}
-
-Vector unit(const Vector& a) {
-    const double max = a.cwiseAbs().maxCoeff();
-    return max > std::numeric_limits<double>::min() ? Vector((a / max).normalized()) : Vector(Vector::UnitX());
 }
 
 bool drawable(const Mesh& mesh, std::size_t cell) {
@@ -153,14 +134,15 @@ Vector Normalised::place(const double* point) const {
     return v;
 }
 
-View from_above(const std::vector<Vector>& points) {
-    const Eigen::Matrix3d axes = extents(points);
-    return {axes.col(2), axes.col(1), axes.col(2).cross(axes.col(1))};
-}
-
-View from_the_side(const std::vector<Vector>& points) {
-    const Eigen::Matrix3d axes = extents(points);
-    return {axes.col(2), axes.col(0), axes.col(2).cross(axes.col(0))};
+View broad_view(const std::vector<Vector>& points, bool from_above) {
+    const Vector sum = std::accumulate(points.begin(), points.end(), Vector(Vector::Zero()));
+    const Vector mean = sum / static_cast<double>(std::max<std::size_t>(points.size(), 1));
+    Eigen::Matrix3d m = Eigen::Matrix3d::Zero();
+    for (const Vector& p : points) m += (p - mean) * (p - mean).transpose();
+    // Directions of least, middle and largest extent, orthonormal.
+    const Eigen::Matrix3d axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(m).eigenvectors();
+    const Vector right = axes.col(2), up = axes.col(from_above ? 1 : 0);
+    return {right, up, right.cross(up)};
 }
 
 std::array<std::size_t, 2> sharpest_edge(Points t) {

@@ -1,6 +1,5 @@
 // The report on a mesh as programs read it, and what systems that run checks are told.
 
-#include "barycert/base/json_text.hpp"
 #include "barycert/report/check/check_words.hpp"
 #include "barycert/report/common/document.hpp"
 

@@ -66,9 +66,9 @@ struct View {
     Vector operator()(const Vector& p) const { return {p.dot(x), p.dot(y), p.dot(z)}; }
 };
 
-/// From where the points are broadest, and from the side, along their middle extent.
-View from_above(const std::vector<Vector>& points);
-View from_the_side(const std::vector<Vector>& points);
+/// With the longest extent of the points to the right: from where they are broadest, or from the side, along their
+/// middle extent.
+View broad_view(const std::vector<Vector>& points, bool from_above);
 
 /// The edge of a tetrahedron with the smallest dihedral angle, as two corners.
 std::array<std::size_t, 2> sharpest_edge(Points tetrahedron);
@@ -77,7 +77,10 @@ std::array<std::size_t, 2> sharpest_edge(Points tetrahedron);
 View along_edge(Points tetrahedron, std::array<std::size_t, 2> edge);
 
 /// Of length 1; any such vector, if `a` is zero.
-Vector unit(const Vector& a);
+inline Vector unit(const Vector& a) {
+    const double max = a.cwiseAbs().maxCoeff();
+    return max > std::numeric_limits<double>::min() ? Vector((a / max).normalized()) : Vector(Vector::UnitX());
+}
 
 // Measures of cells, and their histograms.
 

@@ -69,18 +69,6 @@ std::vector<ConditionRow> condition_rows(const CheckReport& report, const Mesh& 
     return rows;
 }
 
-std::string reason(const Defect& defect) {
-    const DefectText& text = defect_text(defect.kind);
-    return (defect.at_least ? "at least " : "") + counted(defect.count, text.one, text.more);
-}
-
-std::string touch_text(const CellContact& contact, bool in_space) {
-    const std::string where = contact.dimension <= 0   ? " in a point"
-                              : contact.dimension == 1 ? " along a segment"
-                                                       : " in an area";
-    return (in_space ? "meet" : "touch") + where;
-}
-
 std::string place_text(const CheckReport& report, DefectKind kind, const DefectPlace& p) {
     const auto cells = used(report.cell_number(p.cells));
     const char* const cell = cell_word(report);
@@ -107,11 +95,6 @@ std::string place_text(const CheckReport& report, DefectKind kind, const DefectP
                            fmt::join(nodes, " "), others.empty() ? "" : " and ", fmt::join(others, " "));
     if (*p.detail != '\0') out += fmt::format("{}({})", out.empty() ? "" : " ", p.detail);
     return out;
-}
-
-std::string curved_text(const Defect& defect) {
-    return counted(defect.curved_cells, "cell of these is", "cells of these are") +
-           " curved: sides of curved cells were taken as straight";
 }
 
 std::string domain_text(const CheckReport& r) {
@@ -163,13 +146,12 @@ std::vector<std::string> conformity_sentences(const CheckReport& r, std::size_t 
 
 std::string tetgen_sentence(const CheckReport& r) {
     const SurfaceReport& s = *r.surface;
-    std::vector<std::string> reasons;
-    for (const Defect& f : r.defects) {
+    const std::string reasons = joined(r.defects, ", ", [](const Defect& f) {
         // TetGen makes one node of two at one place, and leaves out what collapses.
-        if (f.breaks() && f.kind != DefectKind::open_edge && f.kind != DefectKind::repeated_node)
-            reasons.push_back(reason(f));
-    }
-    if (!reasons.empty()) return fmt::format("TetGen will not get a valid PLC: {}", fmt::join(reasons, ", "));
+        const bool minor = f.kind == DefectKind::open_edge || f.kind == DefectKind::repeated_node;
+        return minor || !f.breaks() ? "" : reason(f);
+    });
+    if (!reasons.empty()) return "TetGen will not get a valid PLC: " + reasons;
     const auto left = std::ranges::count(s.regions, false, &SurfaceRegion::hole);
     if (s.regions.empty()) return "TetGen will have nothing to mesh: the triangles enclose no region";
     if (left == 0) return "TetGen will have nothing to mesh: hole points lie in all regions";
@@ -220,12 +202,6 @@ std::vector<std::string> fix_sentences(const FixedMesh& fixed) {
         all.emplace_back(fixed.notes.empty() ? "nothing to repair: the copy is as the mesh is" : "nothing to repair");
     for (const Note& note : fixed.notes) all.push_back(message(note));
     return all;
-}
-
-std::string grouped(std::uint64_t n) {
-    std::string digits = std::to_string(n);
-    for (std::size_t i = digits.size(); i > 3; i -= 3) digits.insert(i - 3, ",");
-    return digits;
 }
 
 }  // namespace barycert::report

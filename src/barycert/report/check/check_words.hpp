@@ -34,13 +34,24 @@ inline bool leaves_cells_out(const Defect& f) {
 }
 
 /// "3 cells are degenerate".
-std::string reason(const Defect& defect);
+inline std::string reason(const Defect& defect) {
+    const DefectText& text = defect_text(defect.kind);
+    return (defect.at_least ? "at least " : "") + counted(defect.count, text.one, text.more);
+}
 /// "touch along a segment": of cells that do not overlap; "meet along a segment": of triangles in space.
-std::string touch_text(const CellContact& contact, bool in_space = false);
+inline std::string touch_text(const CellContact& contact, bool in_space = false) {
+    const std::string where = contact.dimension <= 0   ? " in a point"
+                              : contact.dimension == 1 ? " along a segment"
+                                                       : " in an area";
+    return (in_space ? "meet" : "touch") + where;
+}
 /// "cells 3 and 17, nodes 4 5 6 (coplanar)".
 std::string place_text(const CheckReport& report, DefectKind kind, const DefectPlace& place);
 /// Where a defect may come from: of one with curved cells.
-std::string curved_text(const Defect& defect);
+inline std::string curved_text(const Defect& defect) {
+    return counted(defect.curved_cells, "cell of these is", "cells of these are") +
+           " curved: sides of curved cells were taken as straight";
+}
 
 /// "1 part, 0 cavities, 7 tunnels"; in the plane a cavity is a hole.
 std::string domain_text(const CheckReport& report);
@@ -53,6 +64,10 @@ std::vector<std::string> conformity_sentences(const CheckReport& report, std::si
 std::vector<std::string> fix_sentences(const FixedMesh& fixed);
 
 /// "1,234,567".
-std::string grouped(std::uint64_t n);
+inline std::string grouped(std::uint64_t n) {
+    std::string digits = std::to_string(n);
+    for (std::size_t i = digits.size(); i > 3; i -= 3) digits.insert(i - 3, ",");
+    return digits;
+}
 
 }  // namespace barycert::report

@@ -4,7 +4,6 @@
 
 #include <sstream>
 
-#include "barycert/base/json_text.hpp"
 #include "barycert/report.hpp"
 
 namespace barycert {
@@ -38,31 +37,6 @@ void Document::curved(const CurvedCells& curved, const std::string& mesh) {
         For::page);
 }
 
-void Document::figure(std::string_view key, Json value, std::string name, std::string text, Tone tone) {
-    data[std::string(key)] = std::move(value);
-    this->name(std::move(name), std::move(text), tone);
-}
-
-std::string Item::Places::more(std::size_t told) const {
-    if (told == 0 || told >= count) return "";
-    return at_least ? "and more" : fmt::format("and {} more", count - told);
-}
-
-std::string data_text(const Document& document) {
-    return base::json_text(document.data, document.indent);
-}
-
-std::string time_text(double total, int threads, const std::vector<std::pair<std::string_view, double>>& parts) {
-    const auto part = [](const auto& p) { return fmt::format("{} {:.3g}", p.first, p.second); };
-    return fmt::format("{:.3g} s on {}: {}", total, counted(static_cast<std::uint64_t>(threads), "thread"),
-                       joined(parts, ", ", part));
-}
-
-std::string not_finite_text(const NotFinite& f) {
-    return fmt::format("field {}{}: {} of {} values {} not finite", f.field, f.of_cells ? " of cells" : "", f.count,
-                       f.values, f.count == 1 ? "is" : "are");
-}
-
 namespace {
 
 constexpr std::size_t columns = 100;
@@ -93,10 +67,9 @@ std::string wrapped(const std::string& text, std::string_view between, std::size
     return out;
 }
 
-class Writer {
-public:
-    explicit Writer(bool colour) : colour_(colour) {}
-    std::string out;
+struct Writer {
+    bool colour;
+    std::string out = {};
 
     void operator()(const Headline& h) {
         std::string line = h.text;
@@ -190,11 +163,10 @@ public:
 
     void operator()(const Pictures& /*markup*/) {}
 
-private:
     std::string toned(const std::string& text, Tone tone) const {
         constexpr std::array<const char*, 5> codes{"", "32", "31", "1", "2"};  // by Tone
         const char* const code = codes[static_cast<std::size_t>(tone)];
-        return colour_ && *code != '\0' ? fmt::format("\033[{}m{}\033[0m", code, text) : text;
+        return colour && *code != '\0' ? fmt::format("\033[{}m{}\033[0m", code, text) : text;
     }
     void tell(const std::string& text, Tone tone, Breaks wrap = Breaks::none) {
         out += toned(wrapped(printable(text), separator(wrap)), tone) + "\n";
@@ -202,14 +174,12 @@ private:
     static std::string cell_of(const Row& row, std::size_t i) {
         return i < row.cells.size() ? printable(row.cells[i].text) : "";
     }
-
-    bool colour_;
 };
 
 }  // namespace
 
 std::string terminal_text(const Document& document, bool colour) {
-    Writer writer(colour);
+    Writer writer{colour};
     for (const Document::Block& block : document.blocks) {
         if (block.whom != For::page) std::visit(writer, block.content);
     }

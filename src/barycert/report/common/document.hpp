@@ -6,6 +6,7 @@
 
 #include <initializer_list>
 
+#include "barycert/base/json_text.hpp"
 #include "barycert/report/common/json.hpp"
 #include "barycert/report/common/terminal_text.hpp"
 
@@ -102,7 +103,11 @@ struct Item {
         std::uint64_t count = 0;
         bool at_least = false;
         char between = ';';
-        std::string more(std::size_t told) const;  ///< "and 30 more"; empty if all are told
+        /// "and 30 more"; empty if all are told.
+        std::string more(std::size_t told) const {
+            if (told == 0 || told >= count) return "";
+            return at_least ? "and more" : fmt::format("and {} more", count - told);
+        }
     };
     struct Line {
         std::string text = {};
@@ -145,7 +150,6 @@ public:
     bool script = false;                   ///< a page's tables sort, its commands are copied
     std::string_view style = {};           ///< a page's, after the common one
     Json data = {};
-    int indent = 2;  ///< of the data
 
     using Content = std::variant<Headline, Section, Paragraph, Named, Listing, Item, Bars, Pictures>;
     struct Block {
@@ -181,7 +185,10 @@ public:
     /// What stands before all else on a mesh whose sides are not straight; nothing if they are. `mesh`: of several.
     void curved(const CurvedCells& curved, const std::string& mesh = {});
     /// A member of the data, and what people are told of it.
-    void figure(std::string_view key, Json value, std::string name, std::string text, Tone tone = Tone::plain);
+    void figure(std::string_view key, Json value, std::string name, std::string text, Tone tone = Tone::plain) {
+        data[std::string(key)] = std::move(value);
+        this->name(std::move(name), std::move(text), tone);
+    }
 };
 
 /// For a terminal or a log: at most 100 columns, where words allow it.
@@ -189,8 +196,6 @@ std::string terminal_text(const Document& document, bool colour);
 
 /// One page of HTML, self-contained and well-formed XML, for screens of any width, light and dark, and for paper.
 std::string page_text(const Document& document);
-
-std::string data_text(const Document& document);
 
 /// The public functions that write what NAME_document says, of an audit and of a run: names which nothing but a macro
 /// makes. Each works in the exact environment.
@@ -201,7 +206,7 @@ std::string data_text(const Document& document);
     }                                                                           \
     std::string name##_json(const Report& report) {                             \
         const ExactEnvironment environment;                                     \
-        return data_text(name##_document(report));                              \
+        return base::json_text(name##_document(report).data, 1);                \
     }
 #define RUN_TEXT_AND_JSON(name, Report)                                    \
     std::string name##_text(const Report& report, bool colour) {           \
@@ -210,7 +215,7 @@ std::string data_text(const Document& document);
     }                                                                      \
     std::string name##_json(const Report& report, const Environment& of) { \
         const ExactEnvironment environment;                                \
-        return data_text(name##_document(report, of));                     \
+        return base::json_text(name##_document(report, of).data, 2);       \
     }
 
 /// For sentences that hold of straight sides alone; empty where these are the mesh's own.
@@ -219,9 +224,15 @@ inline std::string_view for_straight_sides(const CurvedCells& curved) {
 }
 
 /// "2 s on 4 threads: mesh 0.5, sampling 1.5".
-std::string time_text(double total, int threads, const std::vector<std::pair<std::string_view, double>>& parts);
+inline std::string time_text(double total, int threads, const std::vector<std::pair<std::string_view, double>>& parts) {
+    return fmt::format("{:.3g} s on {}: {}", total, counted(static_cast<std::uint64_t>(threads), "thread"),
+                       joined(parts, ", ", [](const auto& p) { return fmt::format("{} {:.3g}", p.first, p.second); }));
+}
 
 /// "field T: 3 of 50 values are not finite".
-std::string not_finite_text(const NotFinite& field);
+inline std::string not_finite_text(const NotFinite& f) {
+    return fmt::format("field {}{}: {} of {} values {} not finite", f.field, f.of_cells ? " of cells" : "", f.count,
+                       f.values, f.count == 1 ? "is" : "are");
+}
 
 }  // namespace barycert::report

@@ -211,9 +211,8 @@ std::string_view by_tone(const std::array<const char*, 5>& classes, Tone tone) {
     return classes[static_cast<std::size_t>(tone)];
 }
 
-class PageWriter {
-public:
-    std::string out;
+struct PageWriter {
+    std::string out = {};
 
     void operator()(const Headline& h) {
         std::string text = h.text;
@@ -289,7 +288,6 @@ public:
 
     void operator()(const Pictures& p) { out += p.markup(); }
 
-private:
     static std::string head_of(const Column& c) {
         std::string head = c.page.empty() ? c.head : c.page;
         std::ranges::replace(head, '\n', ' ');

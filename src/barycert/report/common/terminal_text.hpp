@@ -4,11 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstdint>
 #include <span>
-#include <string>
-#include <string_view>
-#include <utility>
 #include <vector>
 
 #include "barycert/base/text.hpp"
@@ -51,7 +47,7 @@ inline std::string percent(std::uint64_t part, std::uint64_t whole) {
     return fmt::format("{:.{}f}", p, p < 0.1 ? 3 : p < 10 ? 2 : 1);
 }
 
-using base::joined;
+using base::counted, base::joined, base::shell_word;
 
 /// "2 snapped; 3 extrapolated": how many of each; those of which there are none are left out.
 inline std::string clauses(const std::vector<std::pair<std::uint64_t, std::string>>& all,
@@ -66,12 +62,6 @@ std::string coordinates(const auto& all, int count, std::string (*text)(double) 
     return joined(std::span(&all[0], static_cast<std::size_t>(count)), between, text);
 }
 
-/// "1 cell", "2 cells": the plural is the singular and an s, if none is given.
-inline std::string counted(std::uint64_t n, std::string_view one, std::string_view more = {}) {
-    return n == 1 ? fmt::format("1 {}", one)
-                  : fmt::format("{} {}{}", n, more.empty() ? one : more, more.empty() ? "s" : "");
-}
-
 /// "8 cells, cut into 48 tetrahedra"; "8 cells" without parts.
 inline std::string cells_text(std::uint64_t cells, std::uint64_t parts, int dimension) {
     std::string text = counted(cells, "cell");
@@ -80,7 +70,5 @@ inline std::string cells_text(std::uint64_t cells, std::uint64_t parts, int dime
             ", cut into " + (dimension == 2 ? counted(parts, "triangle") : counted(parts, "tetrahedron", "tetrahedra"));
     return text;
 }
-
-using base::shell_word;
 
 }  // namespace barycert::report
