@@ -82,6 +82,12 @@ HWY_INLINE void extents(const V (&vectors)[count][d], V (&out)[d]) {
     }
 }
 
+/// x in [low, high].
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE hn::Mask<D> within(D tag, V x, double low, double high) {
+    return hn::And(hn::Ge(x, hn::Set(tag, low)), hn::Le(x, hn::Set(tag, high)));
+}
+
 /// Every x[k] in [low, high].
 template <class D, int d, class V = hn::Vec<D>>
 HWY_INLINE hn::Mask<D> all_within(D tag, const V (&x)[d], double low, double high) {

@@ -83,6 +83,16 @@ HWY_INLINE std::size_t for_padded_lanes(std::size_t count, std::uint32_t* undeci
     return list.count;
 }
 
+/// out[stride * l] = lane l of v.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE void store_strided(D tag, V v, double* out, std::size_t stride) {
+    if (stride == 1) return hn::StoreU(v, tag, out);
+    constexpr std::size_t width = hn::MaxLanes(D());
+    HWY_ALIGN double buffer[width];
+    hn::Store(v, tag, buffer);
+    for (std::size_t l = 0; l < width; ++l) out[stride * l] = buffer[l];
+}
+
 // Some lanes of a vector from and to memory, of which nothing behind them is read or written. Highway's MaskedLoad and
 // BlendedStore promise as much only where the processor has masks. Elsewhere they read all lanes, and write again what
 // they have read: beyond the end of an array, or over what another thread writes there.

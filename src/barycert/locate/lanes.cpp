@@ -43,9 +43,8 @@ public:
         for (std::size_t k = 0; k < d; ++k) {
             const V zero = x[k] - x[k];  // of finite numbers alone
             strange_ = strange_ + zero;
-            const auto within =
-                hn::And(hn::Ge(x[k], hn::Set(tag, index_.low[k])), hn::Le(x[k], hn::Set(tag, index_.high[k])));
-            in_box = k == 0 ? within : hn::And(in_box, within);
+            const auto own = within(tag, x[k], index_.low[k], index_.high[k]);
+            in_box = k == 0 ? own : hn::And(in_box, own);
         }
         const Quantizer& quantizer = index_.bins.quantizer();
         hn::Vec<I> q[d];

@@ -150,9 +150,9 @@ HWY_INLINE void round_lanes(const Pairs& at, Lanes (&out)[7], Mask& certain) {
     Wide w[3], e[3], f[3];
     Lanes big_w = zero, big_e = zero;
     for (int k = 0; k < 3; ++k) {
-        w[k] = difference(at.p[k], at.at[0][k]);
-        e[k] = difference(corners > 1 ? at.at[1][k] : at.at[0][k], at.at[0][k]);
-        f[k] = difference(corners > 2 ? at.at[2][k] : at.at[0][k], at.at[0][k]);
+        w[k] = two_difference(at.p[k], at.at[0][k]);
+        e[k] = two_difference(corners > 1 ? at.at[1][k] : at.at[0][k], at.at[0][k]);
+        f[k] = two_difference(corners > 2 ? at.at[2][k] : at.at[0][k], at.at[0][k]);
         big_w = big_w + hn::Abs(w[k].high);
         big_e = big_e + hn::Max(hn::Abs(e[k].high), hn::Abs(f[k].high));
     }
