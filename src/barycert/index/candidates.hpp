@@ -46,7 +46,6 @@ public:
         return bounds_->for_each(place, [&](std::uint32_t g) {
             const Group& group = groups_[g];
             const auto named = [&](std::uint32_t i) { return found(group.members[i]); };
-            if (group.nodes[0] < 0) return group.trees[0]->for_each(place, named);
             const Query query = query_of(group, item, place);
             return group.trees[query.tree]->for_each(query.box, named);
         });
