@@ -3,6 +3,7 @@
 #include <bit>
 
 #include "barycert/base/arena.hpp"
+#include "barycert/base/vectors.hpp"
 #include "barycert/core/isoparametric/ball.hpp"
 #include "barycert/locate/mapped/mapped_cells.hpp"
 #include "barycert/mesh/pulling.hpp"
@@ -35,9 +36,7 @@ Sign sign_of_saddle(const std::array<const double*, 4>& n, const double* p) {
         for (std::size_t i = 0; i < 3; ++i) {
             for (std::size_t k = 0; k < 3; ++k) e[i][k] = N(at[i + 1][k]) - N(at[0][k]);
         }
-        return one *
-               (e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) - e[0][1] * (e[1][0] * e[2][2] - e[1][2] * e[2][0]) +
-                e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]));
+        return one * base::dot(e[0], base::cross(e[1], e[2]));
     };
     using Number = iso::Ball<double>;
     const Number one(1.0);
