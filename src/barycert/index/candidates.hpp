@@ -46,8 +46,8 @@ public:
         return bounds_->for_each(place, [&](std::uint32_t g) {
             const Group& group = groups_[g];
             const auto named = [&](std::uint32_t i) { return found(group.members[i]); };
-            const Query query = query_of(group, item, place);
-            return group.trees[query.tree]->for_each(query.box, named);
+            const auto [tree, box] = query_of(group, item, place);
+            return group.trees[tree]->for_each(box, named);
         });
     }
 
@@ -60,12 +60,8 @@ private:
         std::vector<std::uint32_t> members;
         std::array<std::optional<BoxTree>, 3> trees;  ///< by place, direction from the first node, and around both
     };
-    struct Query {
-        std::size_t tree;
-        Box box;
-    };
-
-    Query query_of(const Group& group, const Item& item, const Box& place) const;
+    /// Which tree of the group to ask for the item, and for which box.
+    std::pair<std::size_t, Box> query_of(const Group& group, const Item& item, const Box& place) const;
     void add(std::array<Mesh::Index, 2> nodes, std::vector<std::uint32_t> members, std::span<const Item> items);
     void split(Mesh::Index node, const std::vector<std::uint32_t>& members, std::span<const Item> items);
 

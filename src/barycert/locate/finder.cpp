@@ -142,10 +142,7 @@ void Finder::resolve(const PointRecord& point, Walk stuck, Place* owner, Feature
     }
     Place& first = owner[stuck.point] = stuck.cell;
     if (signs.region() != Region::interior) {
-        data_.node_cells().for_each_around(index, stuck.cell, signs, [&](Place lowest) {
-            first = lowest;
-            return false;
-        });
+        first = data_.node_cells().lowest_around(index, stuck.cell, signs);
         // Where whole cells do not meet face to face, a feature of one need not be one of the other.
         if (index.inside != nullptr) signs = cell_signs(index, first, point.at.data(), tests);
     }

@@ -5,6 +5,7 @@
 #include <bit>
 
 #include "barycert/base/arena.hpp"
+#include "barycert/base/finite.hpp"
 #include "barycert/mesh/adjacency.hpp"
 #include "barycert/mesh/mid_edges.hpp"
 #include "barycert/mesh/pulling.hpp"
@@ -227,21 +228,16 @@ iso::Evaluated MappedCells::evaluate(Mesh::Index cell, Feature feature, const do
                                      const std::vector<const Field*>& fields, Scratch& scratch, double* out) const {
     const mesh::CellMaps::Nodes nodes = maps_.nodes(whole(cell));
     const auto d = static_cast<std::size_t>(mesh_.dimension);
-    std::size_t components = 0, first = 0, at_node = nodes.count;
-    for (const Field* const field : fields) components += static_cast<std::size_t>(field->components);
-    scratch.resize(nodes.count * components);
-    bool finite = true;
-    for (const Field* const field : fields) {
-        const auto width = static_cast<std::size_t>(field->components);
-        for (std::size_t i = 0; i < nodes.count; ++i) {
-            for (std::size_t c = 0; c < width; ++c) {
-                const double x = field->data[static_cast<std::size_t>(nodes.at[i]) * width + c];
-                finite = finite && std::isfinite(x);
-                scratch[i * components + first + c] = x;
-            }
+    std::size_t at_node = nodes.count;
+    scratch.clear();
+    for (const Mesh::Index node : nodes.all()) {
+        for (const Field* const field : fields) {
+            const auto width = static_cast<std::size_t>(field->components);
+            const double* const from = field->data.data() + static_cast<std::size_t>(node) * width;
+            scratch.insert(scratch.end(), from, from + width);
         }
-        first += width;
     }
+    const std::size_t components = scratch.size() / nodes.count;
     const iso::Reference* const reference = maps_.reference(whole(cell));
     const bool may_be_node = feature == Feature::vertex || reference == nullptr || reference->is_simplex();
     for (std::size_t i = 0; may_be_node && i < nodes.count; ++i) {
@@ -254,7 +250,7 @@ iso::Evaluated MappedCells::evaluate(Mesh::Index cell, Feature feature, const do
         }
         return {iso::Certainty::proved, Tier::filter};
     }
-    const std::uint64_t active = finite ? ~std::uint64_t{0} : active_nodes(whole(cell), point);
+    const std::uint64_t active = base::all_finite(scratch) ? ~std::uint64_t{0} : active_nodes(whole(cell), point);
     return iso::evaluate(*reference, maps_.places(whole(cell)), point, active, scratch.data(), components, out);
 }
 
