@@ -33,6 +33,17 @@ struct Item {
 /// of good meshes have some tens of cells.
 inline constexpr std::size_t crowd = 256;
 
+/// More than `crowd` of the items are at one node, whose nodes are nodes_of(item).
+template <class NodesOf>
+bool is_crowded(std::size_t nodes, std::size_t items, NodesOf nodes_of) {
+    std::vector<std::uint32_t> count(nodes, 0);
+    std::uint32_t most = 0;
+    for (std::size_t i = 0; i < items; ++i) {
+        for (const Mesh::Index node : nodes_of(i)) most = std::max(most, ++count[static_cast<std::size_t>(node)]);
+    }
+    return most > crowd;
+}
+
 class Candidates {
 public:
     Candidates(int d, std::span<const Item> items, std::size_t most_at_a_node = crowd);

@@ -8,18 +8,6 @@
 namespace barycert::index {
 namespace {
 
-/// The most facets that one node has.
-std::size_t largest_fan(std::size_t nodes, const std::vector<PlacedFacet>& facets) {
-    std::vector<std::uint32_t> count(nodes, 0);
-    std::uint32_t largest = 0;
-    for (const PlacedFacet& facet : facets) {
-        for (const Mesh::Index node : facet.nodes) {
-            if (node >= 0) largest = std::max(largest, ++count[static_cast<std::size_t>(node)]);
-        }
-    }
-    return largest;
-}
-
 /// Joins facets that come one after the other around a ridge, if the cells of both lie between them, or neither does.
 /// They are all the open facets that have the ridge, without conflicts.
 void join_around(const CellIndex& index, const std::vector<CellFacet>& open, std::span<const Ridge> ridges,
@@ -46,7 +34,8 @@ class Suspects {
 public:
     Suspects(const CellIndex& index, const std::vector<PlacedFacet>& facets)
         : facets_(facets), d_(static_cast<int>(index.dimension())) {
-        if (largest_fan(index.original_node.size(), facets) <= crowd) {
+        const auto nodes_of = [&](std::size_t f) { return std::span(facets[f].nodes).first(index.dimension()); };
+        if (!is_crowded(index.original_node.size(), facets.size(), nodes_of)) {
             // Facets are in the order of their cells, which is that of space.
             boxes_.emplace(facets.size(),
                            [&](std::size_t f) { return box_of(index, facets[f].at.data(), index.dimension()); });
