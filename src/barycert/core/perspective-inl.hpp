@@ -114,20 +114,16 @@ HWY_INLINE QuotientLanes<D> divided(D tag, const ProjectedLanes<D>& q, const Dou
     return out;
 }
 
-template <class D>
-HWY_INLINE hn::Mask<D> never(D tag) {
-    return hn::Lt(hn::Zero(tag), hn::Zero(tag));
-}
-
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE QuotientLanes<D> perspective_weight(D tag, const ProjectedLanes<D>& q, int i) {
-    return divided(tag, q, q.numerator[i], hn::Set(tag, 22) * (q.p * q.product[i]), never(tag));
+    return divided(tag, q, q.numerator[i], hn::Set(tag, 22) * (q.p * q.product[i]), hn::MaskFromVec(hn::Zero(tag)));
 }
 
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE QuotientLanes<D> perspective_depth(D tag, const ProjectedLanes<D>& q) {
     const DoubleDouble<V> numerator = (q.area * q.product0) * DoubleDouble<V>{q.depth0, hn::Zero(tag)};
-    return divided(tag, q, numerator, hn::Set(tag, 117) * (q.p * (q.product[0] * q.depth0)), never(tag));
+    return divided(tag, q, numerator, hn::Set(tag, 117) * (q.p * (q.product[0] * q.depth0)),
+                   hn::MaskFromVec(hn::Zero(tag)));
 }
 
 /// f: the values at the three vertices.

@@ -104,11 +104,10 @@ iso::InSimplex MappedCells::in_curved(std::size_t whole, const double* point) co
     const iso::Reference& reference = *maps_.reference(whole);
     for (std::size_t i = 0; i < nodes.count; ++i) {
         if (!std::equal(point, point + mesh_.dimension, at(nodes.at[i]))) continue;
-        const bool kept = maps_.places(whole).other[i] == nullptr;  // else it is off its straight edge
-        for (unsigned c = 0, zeros = 0; kept && c <= static_cast<unsigned>(mesh_.dimension); ++c) {
-            zeros |= reference.indices[i][c] == 0 ? 1U << c : 0U;
-            if (c == static_cast<unsigned>(mesh_.dimension)) return {.inside = true, .zeros = zeros, .proved = true};
-        }
+        if (maps_.places(whole).other[i] != nullptr) continue;  // it is off its straight edge
+        iso::InSimplex in{.inside = true, .proved = true};
+        for (std::size_t c = 0; c < mesh_.corners(); ++c) in.zeros |= reference.indices[i][c] == 0 ? 1U << c : 0U;
+        return in;
     }
     unsigned flat = 0;
     std::array<int, 4> beyond{};

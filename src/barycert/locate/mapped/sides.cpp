@@ -48,10 +48,7 @@ Sign sign_of_saddle(const std::array<const double*, 4>& n, const double* p) {
 
 InSide look(const std::array<const double*, 4>& n, const double* p) {
     InSide out;
-    for (std::size_t k = 0; k < 3; ++k) {
-        const auto [low, high] = std::minmax({n[0][k], n[1][k], n[2][k], n[3][k]});
-        if (p[k] < low || p[k] > high) return out;
-    }
+    if (index::outcode(3, index::box_of(3, n.data(), 4), p) != 0) return out;
     const Sign whole = orient3d(n[0], n[1], n[2], n[3]);
     for (std::size_t i = 0; i < 4; ++i) {
         const Sign own = side_of_plane(n, i, p) * whole;
