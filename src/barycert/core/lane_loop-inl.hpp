@@ -28,10 +28,10 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// A bit a lane, that of lane 0 the lowest.
 template <class D, class M>
 HWY_INLINE std::uint32_t mask_bits(D tag, M mask) {
-    static_assert(hn::MaxLanes(D()) <= 8);
+    static_assert(hn::MaxLanes(D()) <= 16);
     std::uint8_t bits[8] = {};
     hn::StoreMaskBits(tag, mask, bits);
-    return bits[0];
+    return hn::MaxLanes(D()) <= 8 ? bits[0] : bits[0] | static_cast<std::uint32_t>(bits[1]) << 8;
 }
 
 /// Numbers of undecided cases, ascending.

@@ -15,8 +15,8 @@ void join_around(const CellIndex& index, const std::vector<CellFacet>& open, std
     if (ridges.size() == 2) return sets.join(ridges[0].facet, ridges[1].facet);
     const auto cell_follows = [&](const Ridge& ridge) {  // it comes next in the turn
         const auto& [cell, corner] = open[ridge.facet];
-        const Place apex = index.cells[static_cast<std::size_t>(cell)].node[static_cast<std::size_t>(corner)];
-        return turn.to(ridge, index.nodes[static_cast<std::size_t>(apex)].at.data()) == Sign::positive;
+        const Place apex = index.cells[cell].node[static_cast<std::size_t>(corner)];
+        return turn.to(ridge, index.nodes[apex].at.data()) == Sign::positive;
     };
     const std::span<const Ridge> ring = turn.sorted(ridges);
     const Ridge* before = &ring.back();
@@ -111,15 +111,14 @@ Item item_of(const PlacedFacet& facet, int d) {
 }
 
 PlacedFacet placed(const CellIndex& index, const CellFacet& facet) {
-    const auto& node = index.cells[static_cast<std::size_t>(facet.cell)].node;
+    const auto& node = index.cells[facet.cell].node;
     PlacedFacet placed;
     std::size_t count = 0;
     for (std::size_t i = 0; i < index.corners(); ++i) {
         if (i != static_cast<std::size_t>(facet.corner)) placed.nodes[count++] = node[i];
     }
     std::sort(placed.nodes.begin(), placed.nodes.begin() + static_cast<std::ptrdiff_t>(count));
-    for (std::size_t i = 0; i < count; ++i)
-        placed.at[i] = index.nodes[static_cast<std::size_t>(placed.nodes[i])].at.data();
+    for (std::size_t i = 0; i < count; ++i) placed.at[i] = index.nodes[placed.nodes[i]].at.data();
     return placed;
 }
 

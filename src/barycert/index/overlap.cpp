@@ -73,7 +73,7 @@ bool interiors_meet(int d, const Corners& a, const Corners& b) {
 
 Item item_of(const CellIndex& index, Place cell) {
     Item item{.count = static_cast<int>(index.corners()), .at = index.corner_points(cell)};
-    std::copy_n(index.cells[static_cast<std::size_t>(cell)].node.begin(), index.corners(), item.nodes.begin());
+    std::copy_n(index.cells[cell].node.begin(), index.corners(), item.nodes.begin());
     return item;
 }
 

@@ -35,13 +35,13 @@ bool all_on_side(const Plane& plane, std::span<const Corner> corners, Sign side)
 bool may_cross(const CellIndex& index, Place cell, const PlacedFacet& facet) {
     const auto d = static_cast<int>(index.dimension());
     const auto n = static_cast<std::size_t>(d);
-    const CellRecord& record = index.cells[static_cast<std::size_t>(cell)];
+    const CellRecord& record = index.cells[cell];
     std::array<Corner, 4> of_cell{};
     std::array<Corner, 3> of_facet{};
     for (std::size_t j = 0; j < n; ++j) of_facet[j] = {facet.at[j], false};
     std::size_t common = 0, apex = 0;
     for (std::size_t i = 0; i <= n; ++i) {
-        of_cell[i] = {index.nodes[static_cast<std::size_t>(record.node[i])].at.data(), false};
+        of_cell[i] = {index.nodes[record.node[i]].at.data(), false};
         for (std::size_t j = 0; j < n; ++j) {
             if (record.node[i] == facet.nodes[j]) of_cell[i].common = of_facet[j].common = true;
         }

@@ -224,7 +224,7 @@ constexpr std::size_t found_between = 4;
 template <Simplex s, std::size_t width>
 HWY_INLINE void fetch_nodes(const locate::CellIndex& index, const NodeRecord* nodes, const Walk* walks) {
     for (std::size_t l = 0; l < width; ++l) {
-        const auto& node = index.cells[static_cast<std::size_t>(walks[l].cell)].node;
+        const auto& node = index.cells[walks[l].cell].node;
         for (std::size_t i = 0; i < vertex_count(s); ++i) __builtin_prefetch(&nodes[static_cast<std::size_t>(node[i])]);
     }
 }

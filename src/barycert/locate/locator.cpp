@@ -132,7 +132,7 @@ Status Locator::locate(std::span<const double> points, std::span<Mesh::Index> ce
                         const Feature* feature) {
             Location* const to = found->data() + records->number;
             for (std::size_t i = 0; i < n; ++i) {
-                to[i] = {owner[i] < 0 ? -1 : index.original[static_cast<std::size_t>(owner[i])], feature[i]};
+                to[i] = {owner[i] < 0 ? -1 : index.original[owner[i]], feature[i]};
                 if (mapped) mapped->push(records[i], to[i], owner + i, n - i);
             }
         }
@@ -211,9 +211,6 @@ Result<Table> Locator::locate_all(std::span<const double> points, int threads, N
             locate::SortedPoints sorted;
             sorted.sort(data_->index, data_->occupancy(), points.subspan(d * first, d * size));
             locate::Finder finder(*data_, data_->index.nodes.data(), size);
-            std::vector<std::size_t> number(size + 1);
-            sorted.for_each_in_callers_order([](std::size_t) {},
-                                             [&](std::size_t i, std::size_t place) { number[place] = first + i; });
             Table& part = parts[b];
             LocationCounts& counts = part.counts.locations;
             std::vector<Found> found;
@@ -222,7 +219,7 @@ Result<Table> Locator::locate_all(std::span<const double> points, int threads, N
                 const std::size_t n = std::min(locate::chunk_size, sorted.size() - at);
                 sorted.copy(at, n, records.data());
                 finder.find_all(records.data(), n, counts, [&](std::uint32_t point, Mesh::Index cell, Feature feature) {
-                    found.push_back({number[at + point], {cell, feature}});
+                    found.push_back({first + sorted.entries()[at + point].number, {cell, feature}});
                 });
             }
             counts.ways.no_cell_near += sorted.left_out();

@@ -24,7 +24,7 @@ public:
         for (const Place c : place) {
             if (c < 0) continue;
             for (std::size_t i = 0; i < corners; ++i)
-                cells_[next[static_cast<std::size_t>(index.cells[static_cast<std::size_t>(c)].node[i])]++] = c;
+                cells_[next[static_cast<std::size_t>(index.cells[c].node[i])]++] = c;
         }
     }
 
@@ -39,14 +39,14 @@ public:
     /// simplicial complex it is the lowest that holds the point. Precondition: the signs are those of a point in the
     /// closed cell, which is not degenerate.
     Place lowest_around(const CellIndex& index, Place cell, WeightSigns signs) const {
-        const CellRecord& record = index.cells[static_cast<std::size_t>(cell)];
+        const CellRecord& record = index.cells[cell];
         std::array<Place, 4> support;
         std::size_t count = 0;
         for (std::size_t i = 0; i < index.corners(); ++i) {
             if (signs.sign(static_cast<int>(i)) != Sign::zero) support[count++] = record.node[i];
         }
         return *std::ranges::find_if(of(support[0]), [&](Place candidate) {
-            const auto& nodes = index.cells[static_cast<std::size_t>(candidate)].node;
+            const auto& nodes = index.cells[candidate].node;
             return std::all_of(support.begin() + 1, support.begin() + static_cast<std::ptrdiff_t>(count),
                                [&](Place node) { return std::ranges::find(nodes, node) != nodes.end(); });
         });

@@ -5,6 +5,7 @@
 #include "barycert/base/arena.hpp"
 #include "barycert/base/vectors.hpp"
 #include "barycert/core/isoparametric/ball.hpp"
+#include "barycert/index/facet_contact.hpp"
 #include "barycert/locate/mapped/mapped_cells.hpp"
 #include "barycert/mesh/pulling.hpp"
 
@@ -156,12 +157,7 @@ std::uint64_t MappedCells::active_nodes(std::size_t shape, const double* point) 
             own |= std::uint64_t{1} << place;
         }
         const auto in_triangle = [&](std::size_t j, std::size_t k) {
-            if (orient3d(n[0], n[j], n[k], point) != Sign::zero) return false;
-            std::array<double, 9> vertices{};
-            std::copy_n(n[0], 3, vertices.begin());
-            std::copy_n(n[j], 3, vertices.begin() + 3);
-            std::copy_n(n[k], 3, vertices.begin() + 6);
-            return weight_signs(Simplex::triangle3d, vertices.data(), point).contains();
+            return index::face_around(3, {{0, 1, 2}, {n[0], n[j], n[k]}}, point)[0] >= 0;
         };
         bool on = false;
         if (flat) {
