@@ -18,19 +18,11 @@ void Finder::find(const PointRecord* points, std::size_t count, Place* owner, Fe
     if (asked_count_ != 0) ask_candidates(points, owner, feature, counts.tests);
     counts.ways.walk += count - asked_count_;
     counts.ways.candidates += asked_count_;
-    std::uint64_t interior = arrived_.count;
-    if (interior != count ||
-        (proof_ != nullptr && !proof_->contested.empty())) {  // in contested cells an owner may be another one
-        interior = 0;
-        for (std::size_t i = 0; i < count; ++i) {
-            if (feature[i] == Feature::interior) {
-                ++interior;
-            } else {
-                counts.add(feature[i]);
-            }
-        }
-    }
+    const auto interior = static_cast<std::size_t>(std::count(feature, feature + count, Feature::interior));
     counts.add(Feature::interior, interior);
+    for (std::size_t i = 0; interior != count && i < count; ++i) {
+        if (feature[i] != Feature::interior) counts.add(feature[i]);
+    }
 }
 
 void Finder::settle(const PointRecord& point, Place stuck, Place& owner, Feature& feature) {

@@ -329,9 +329,7 @@ bool MappedCells::add_tetrahedron(std::size_t own, const PointRecord& point, con
     constexpr std::size_t count = 10;
     const iso::Reference& reference = *maps_.reference(own);
     if (reference.element != iso::Element::tetrahedron || reference.nodes != count) return false;
-    std::array<Mesh::Index, count> nodes{};
-    std::copy_n(has_shapes() ? shape_nodes(own) : &mesh_.cells[4 * own], has_shapes() ? 10 : 4, nodes.begin());
-    if (!has_shapes()) std::copy_n(&mesh_.mid_nodes[6 * own], 6, nodes.begin() + 4);
+    const auto nodes = maps_.nodes(own).at;
     for (std::size_t i = 0; i < count; ++i) {
         const double *place = this->at(nodes[i]), *other = place;
         if (std::equal(place, place + 3, point.at.begin())) return false;

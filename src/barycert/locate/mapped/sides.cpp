@@ -96,11 +96,9 @@ void MappedCells::find_sides() {
     std::vector<index::Box> boxes(warped_.size());
     base::parallel_for_each(boxes.size(), 1024, [&](std::size_t i) {
         std::array<const double*, 8> corners{};
-        const auto shape = static_cast<std::size_t>(warped_[i].whole);
-        const auto count = static_cast<std::size_t>(mesh_.shapes.ends[shape]) -
-                           static_cast<std::size_t>(shape_nodes(shape) - mesh_.shapes.nodes.data());
-        for (std::size_t c = 0; c < count; ++c) corners[c] = at(shape_nodes(shape)[c]);
-        boxes[i] = index::box_of(3, corners.data(), static_cast<int>(count));
+        const mesh::CellMaps::Nodes nodes = maps_.nodes(static_cast<std::size_t>(warped_[i].whole));
+        for (std::size_t c = 0; c < nodes.count; ++c) corners[c] = at(nodes.at[c]);
+        boxes[i] = index::box_of(3, corners.data(), static_cast<int>(nodes.count));
     });
     tree_ = std::make_unique<index::BoxTree>(std::move(boxes));
 }
