@@ -39,7 +39,8 @@ LISTED = [
     (R, "constant(4 * 172 * u * u)", "", down_to("0.1")),
     (R, "hn::Le(max_size, constant(0x1p900))", "", TO_INFINITY),
     (R, "hn::Le(g, constant(", "", TO_INFINITY),
-    (R, "hn::Ge(k, constant(0.125))", "", "Equivalent: |d| <= 4.01 G unless d overflows, which the limit on G excludes."),
+    (R, "within(tag, k, 0.125, 0x1p36)", "within(tag, k, 0.0, 0x1p36)",
+     "Equivalent: |d| <= 4.01 G unless d overflows, which the limit on G excludes."),
     (R, "hn::Le(out.magnitude, constant(0x1p100))", "", "Slack: the bound grows with the weights; " + TO_INFINITY[7:]),
     (R, "18 * u * u / (5.5", "", down_to("0.25")),
     (R, "44 * u * u / (11.5", "", down_to("0.5")),
@@ -49,14 +50,14 @@ LISTED = [
     (R, "constant(26 * u * u) * max_weight", "", COVERED + "The numerator's part alone is at least 18 u^2 P / |d|."),
     (R, "hn::Le(denominator_error, constant", "hn::Le(denominator_error, constant(0x1p200) * f.denominator.high)",
      "Slack: where N.N is lost in its error the weights' bound is as large as they are, and their two ends round differently."),
-    (R, "hn::Set(tag, 0x1p-52) * hn::Abs(r.correction[i])", "hn::Zero(tag)", COVERED + "|c| is of the order of u, this part of "
+    (R, "hn::Set(tag, 0x1p-52) * hn::Abs(y)", "hn::Zero(tag)", COVERED + "|c| is of the order of u, this part of "
      "u^2."),
-    (R, "hn::Set(tag, 1 + 0x1p-40) * r.error", "", down_to("2^-6")),
+    (R, "hn::Set(tag, 1 + 0x1p-40) * error", "", down_to("2^-6")),
     (R, "hn::Set(tag, n) * r.error", "r.error", "Slack: one weight's bound, four times too large for all but the last, "
      "covers the sum; a 64th of it is killed."),
     (R, "hn::Set(tag, n) * r.error", "", COVERED),
     (R, "hn::Set(tag, 0x1p-98)", "", COVERED + "n times the weights' bound, in the same sum, is larger."),
-    (R, "hn::Set(tag, 0x1p900)", "", TO_INFINITY),
+    (R, "0x1p-800, 0x1p900)", "", TO_INFINITY),
     (R, "error, certain) +", "", "Equivalent: the last sum is of two numbers of different sign where it is zero, and that "
      "is +0 to nearest; or of zeros, of which the sum of remainders is a positive one."),
     (E, "0x1p27 + 1", "", "Slack: the parts are a bit longer or shorter, the remainder off by its own last bits, far below "

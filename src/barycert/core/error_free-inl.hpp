@@ -101,12 +101,6 @@ HWY_INLINE DoubleDouble<V> operator*(const DoubleDouble<V>& x, const DoubleDoubl
     return quick_two_sum(p.high, p.low + (x.high * y.low + x.low * y.high));
 }
 
-/// x - y, exactly.
-template <class V>
-HWY_INLINE DoubleDouble<V> difference(V x, V y) {
-    return two_difference(x, y);
-}
-
 }  // namespace barycert::core::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

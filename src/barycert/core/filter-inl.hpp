@@ -82,6 +82,12 @@ HWY_INLINE void extents(const V (&vectors)[count][d], V (&out)[d]) {
     }
 }
 
+/// x in [low, high].
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE hn::Mask<D> within(D tag, V x, double low, double high) {
+    return hn::And(hn::Ge(x, hn::Set(tag, low)), hn::Le(x, hn::Set(tag, high)));
+}
+
 /// Every x[k] in [low, high].
 template <class D, int d, class V = hn::Vec<D>>
 HWY_INLINE hn::Mask<D> all_within(D tag, const V (&x)[d], double low, double high) {
@@ -161,14 +167,10 @@ HWY_INLINE hn::Mask<D> filter(D tag, const Relative<s, V>& c, hn::Vec<hn::Rebind
     Fractions<s, V> f;
     solve(c, hn::Zero(tag), f);
     const Bounds<D> bound = filter_bounds<s>(tag, c);
-    V min_numerator;
-    if constexpr (vertex_count(s) == 4) {
-        min_numerator =
-            hn::Min(min_magnitude(f.numerator[0], f.numerator[1]), min_magnitude(f.numerator[2], f.numerator[3]));
-    } else {
-        min_numerator = min_magnitude(f.numerator[0], f.numerator[1]);
-        if constexpr (vertex_count(s) == 3) min_numerator = hn::Min(min_numerator, hn::Abs(f.numerator[2]));
-    }
+    const auto& n = f.numerator;
+    V min_numerator = min_magnitude(n[0], n[1]);
+    if constexpr (vertex_count(s) == 3) min_numerator = hn::Min(min_numerator, hn::Abs(n[2]));
+    if constexpr (vertex_count(s) == 4) min_numerator = hn::Min(min_numerator, min_magnitude(n[2], n[3]));
     const auto certain = hn::And(hn::And(bound.valid, hn::Gt(min_numerator, bound.numerator)),
                                  hn::Gt(hn::Abs(f.denominator), bound.denominator));
     // Sign bits of the numerators to bits 0 to 3; if the denominator is negative all of them flip, and bit 8 is set.

@@ -139,7 +139,7 @@ HWY_INLINE RefinedGradient<d, D> refined_gradient(D tag, const CellMatrix<d, D>&
 
     const V bound = m.residual_factor * rest + constant(100 * u * u) * size;
     const auto constant_field = hn::Eq(size, hn::Zero(tag));
-    g.valid = hn::Or(constant_field, hn::And(hn::Ge(size, constant(0x1p-500)), hn::Le(size, constant(0x1p900))));
+    g.valid = hn::Or(constant_field, within(tag, size, 0x1p-500, 0x1p900));
     for (int k = 0; k < d; ++k) {
         g.correction[k] = sum_over_edges(m, residual, k);
         g.error[k] = m.reach[k] * bound;
@@ -154,12 +154,8 @@ template <int d, class D, class V = hn::Vec<D>>
 HWY_INLINE void gradient_of(D tag, const CellMatrix<d, D>& m, const V (&f)[d + 1], V (&out)[d], hn::Mask<D>& certain) {
     const RefinedGradient<d, D> g = refined_gradient<d>(tag, m, f);
     certain = hn::And(certain, g.valid);
-    for (int k = 0; k < d; ++k) {
-        // y -+ error rounds by u (|y| + error): added to the error as 2 u |y|, and as 2^-40 of itself.
-        const V error = hn::Set(tag, 1 + 0x1p-40) * g.error[k] + hn::Set(tag, 0x1p-52) * hn::Abs(g.correction[k]);
-        // + 0: an exact zero is positive
-        out[k] = rounded_if_certain<D>(g.plain[k], g.correction[k], error, certain) + hn::Zero(tag);
-    }
+    for (int k = 0; k < d; ++k)  // + 0: an exact zero is positive
+        out[k] = rounded_sum(tag, g.plain[k], g.correction[k], g.error[k], certain) + hn::Zero(tag);
 }
 
 }  // namespace barycert::core::HWY_NAMESPACE

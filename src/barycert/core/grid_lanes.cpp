@@ -89,8 +89,7 @@ HWY_INLINE void find_some(D tag, const AxisGrid& grid, const GridPoints& of, std
     load_points(tag, grid, of.points.data() + grid.dimension * first, p);
     hn::Mask<D> inside = hn::Eq(p[0], p[0]);
     for (std::size_t k = 0; k < 3; ++k) {
-        const V low = hn::Set(tag, grid.planes[k][0]), high = hn::Set(tag, grid.planes[k][grid.cells[k]]);
-        inside = hn::And(inside, hn::And(hn::Ge(p[k], low), hn::Le(p[k], high)));
+        inside = hn::And(inside, within(tag, p[k], grid.planes[k][0], grid.planes[k][grid.cells[k]]));
     }
     V on_planes = zero, node = zero, cell = zero;
     for (std::size_t k = 3; k-- > 0;) {
@@ -185,11 +184,11 @@ struct GridLanes {
         certain = hn::Eq(p[0], p[0]);
         for (std::size_t k = 0; k < 3; ++k) {
             const V a = hn::LoadU(tag, found.low[k] + at), b = hn::LoadU(tag, found.high[k] + at);
-            n[k] = difference(p[k], a);
-            m[k] = difference(b, p[k]);
-            w[k] = difference(b, a);
+            n[k] = two_difference(p[k], a);
+            m[k] = two_difference(b, p[k]);
+            w[k] = two_difference(b, a);
             volume = k == 0 ? w[k] : volume * w[k];
-            certain = hn::And(certain, hn::And(hn::Ge(w[k].high, set(0x1p-200)), hn::Le(w[k].high, set(0x1p200))));
+            certain = hn::And(certain, within(tag, w[k].high, 0x1p-200, 0x1p200));
         }
         inverse = set(1) / volume.high;
     }
@@ -220,8 +219,7 @@ struct GridLanes {
         const TwoTerms<V> p = two_product(q, volume.high);
         const V c = (((x.h - p.high) - p.low) + (x.l - q * volume.low)) * inverse;
         const V error = set(bound * (1 + 0x1p-40)) * most + set(0x1p-52) * hn::Abs(c);
-        const auto in_range = hn::And(hn::Ge(most, set(0x1p-300)), hn::Le(most, set(0x1p300)));
-        sure = hn::And(sure, hn::Or(in_range, hn::Eq(most, hn::Zero(tag))));
+        sure = hn::And(sure, hn::Or(within(tag, most, 0x1p-300, 0x1p300), hn::Eq(most, hn::Zero(tag))));
         return rounded_if_certain<D>(q, c, error, sure) + hn::Zero(tag);
     }
 };
@@ -294,17 +292,11 @@ struct GridPart {
 template <class D>
 HWY_INLINE hn::Mask<D> values_of_some(D tag, const AxisGrid& grid, const GridPoints& of, std::size_t first,
                                       std::size_t at, const Found& found) {
-    constexpr std::size_t width = hn::MaxLanes(D());
     const GridLanes<D> lanes(tag, grid, of.points.data() + grid.dimension * first, found, at);
     hn::Mask<D> sure = lanes.certain;
-    HWY_ALIGN double value[width];
-    const std::int32_t* const cells = of.cells + first;
-    double* const to = of.values + of.width * first;
     const auto set_all = [&](const auto& value_of) HWY_ATTR {
-        for (std::size_t c = 0; c < of.fields.size(); ++c) {
-            hn::Store(value_of(of.fields[c]), tag, value);
-            for (std::size_t l = 0; l < width; ++l) to[of.width * l + c] = value[l];
-        }
+        for (std::size_t c = 0; c < of.fields.size(); ++c)
+            store_strided(tag, value_of(of.fields[c]), of.values + of.width * first + c, of.width);
     };
     if (of.multilinear) {
         set_all([&](const NodeComponent& field) HWY_ATTR { return multilinear_value(lanes, field, sure); });
@@ -312,8 +304,9 @@ HWY_INLINE hn::Mask<D> values_of_some(D tag, const AxisGrid& grid, const GridPoi
         const GridPart<D> part(lanes);
         set_all([&](const NodeComponent& field) HWY_ATTR { return part.value(lanes, field, sure); });
     }
-    for (std::size_t l = 0; l < width; ++l) value[l] = cells[l];
-    return hn::Or(sure, hn::Lt(hn::Load(tag, value), hn::Zero(tag)));
+    const hn::Rebind<std::int32_t, D> narrow;
+    const auto cells = hn::PromoteTo(tag, hn::LoadU(narrow, of.cells + first));
+    return hn::Or(sure, hn::Lt(cells, hn::Zero(tag)));
 }
 
 std::size_t sample_all(const AxisGrid& grid, const GridPoints& of, std::uint32_t* undecided) {

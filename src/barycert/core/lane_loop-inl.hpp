@@ -28,10 +28,10 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// A bit a lane, that of lane 0 the lowest.
 template <class D, class M>
 HWY_INLINE std::uint32_t mask_bits(D tag, M mask) {
-    static_assert(hn::MaxLanes(D()) <= 8);
+    static_assert(hn::MaxLanes(D()) <= 16);
     std::uint8_t bits[8] = {};
     hn::StoreMaskBits(tag, mask, bits);
-    return bits[0];
+    return hn::MaxLanes(D()) <= 8 ? bits[0] : bits[0] | static_cast<std::uint32_t>(bits[1]) << 8;
 }
 
 /// Numbers of undecided cases, ascending.
@@ -81,6 +81,16 @@ HWY_INLINE std::size_t for_padded_lanes(std::size_t count, std::uint32_t* undeci
         run(hn::ScalableTag<double>());
     }
     return list.count;
+}
+
+/// out[stride * l] = lane l of v.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE void store_strided(D tag, V v, double* out, std::size_t stride) {
+    if (stride == 1) return hn::StoreU(v, tag, out);
+    constexpr std::size_t width = hn::MaxLanes(D());
+    HWY_ALIGN double buffer[width];
+    hn::Store(v, tag, buffer);
+    for (std::size_t l = 0; l < width; ++l) out[stride * l] = buffer[l];
 }
 
 // Some lanes of a vector from and to memory, of which nothing behind them is read or written. Highway's MaskedLoad and

@@ -22,16 +22,6 @@ HWY_INLINE void store_interleaved(D tag, const V (&w)[n], double* out) {
     if constexpr (n == 4) hn::StoreInterleaved4(w[0], w[1], w[2], w[3], tag, out);
 }
 
-/// out[stride * l] = lane l of v.
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE void store_strided(D tag, V v, double* out, std::size_t stride) {
-    if (stride == 1) return hn::StoreU(v, tag, out);
-    constexpr std::size_t width = hn::MaxLanes(D());
-    HWY_ALIGN double buffer[width];
-    hn::Store(v, tag, buffer);
-    for (std::size_t l = 0; l < width; ++l) out[stride * l] = buffer[l];
-}
-
 template <Simplex s>
 std::size_t signs_of(const CaseBlock& cases, WeightSigns* out, std::uint32_t* undecided) {
     return for_lanes(cases.count, undecided, [&](auto tag, std::size_t at) BARYCERT_LANE_LAMBDA {

@@ -61,7 +61,7 @@ HWY_INLINE ProjectedLanes<D> project_lanes(D tag, const double* vertices, V x, V
     Relative<Simplex::triangle, Number> c;
     V extent[2];
     for (int k = 0; k < 2; ++k) {
-        for (int i = 0; i < 3; ++i) c.r[i][k] = difference(constant(vertices[3 * i + k]), point[k]);
+        for (int i = 0; i < 3; ++i) c.r[i][k] = two_difference(constant(vertices[3 * i + k]), point[k]);
         extent[k] = hn::Max(hn::Max(hn::Abs(c.r[0][k].high), hn::Abs(c.r[1][k].high)), hn::Abs(c.r[2][k].high));
     }
     Fractions<Simplex::triangle, Number> window;
@@ -81,14 +81,11 @@ HWY_INLINE ProjectedLanes<D> project_lanes(D tag, const double* vertices, V x, V
     out.p = constant(2 * u * u) * (extent[0] * extent[1]);
     out.denominator_error = constant(30) * (out.p * sum);
     out.inverse = constant(1) / out.denominator.high;
-    const auto within = [&](V a, double low, double high) {
-        return hn::And(hn::Ge(a, constant(low)), hn::Le(a, constant(high)));
-    };
-    out.valid = hn::And(within(extent[0], 0x1p-200, 0x1p200), within(extent[1], 0x1p-200, 0x1p200));
+    out.valid = hn::And(within(tag, extent[0], 0x1p-200, 0x1p200), within(tag, extent[1], 0x1p-200, 0x1p200));
     out.valid = hn::And(out.valid, hn::Le(out.denominator_error, constant(0x1p-10) * hn::Abs(out.denominator.high)));
     out.valid = hn::And(out.valid, hn::Gt(hn::Abs(out.area.high), constant(65) * out.p));
     for (int i = 0; i < 3; ++i)
-        out.valid = hn::And(out.valid, within(constant(vertices[3 * i + 2]), 0x1p-100, 0x1p100));
+        out.valid = hn::And(out.valid, within(tag, constant(vertices[3 * i + 2]), 0x1p-100, 0x1p100));
     return out;
 }
 
@@ -113,25 +110,20 @@ HWY_INLINE QuotientLanes<D> divided(D tag, const ProjectedLanes<D>& q, const Dou
     out.correction = rest * q.inverse;
     out.error =
         constant(1.02) * ((error + size * q.denominator_error) * hn::Abs(q.inverse)) + constant(26 * u * u) * size;
-    const auto in_range = hn::And(hn::Ge(size, constant(0x1p-800)), hn::Le(size, constant(0x1p900)));
-    out.valid = hn::And(q.valid, hn::Or(in_range, all_zero));
+    out.valid = hn::And(q.valid, hn::Or(within(tag, size, 0x1p-800, 0x1p900), all_zero));
     return out;
-}
-
-template <class D>
-HWY_INLINE hn::Mask<D> never(D tag) {
-    return hn::Lt(hn::Zero(tag), hn::Zero(tag));
 }
 
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE QuotientLanes<D> perspective_weight(D tag, const ProjectedLanes<D>& q, int i) {
-    return divided(tag, q, q.numerator[i], hn::Set(tag, 22) * (q.p * q.product[i]), never(tag));
+    return divided(tag, q, q.numerator[i], hn::Set(tag, 22) * (q.p * q.product[i]), hn::MaskFromVec(hn::Zero(tag)));
 }
 
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE QuotientLanes<D> perspective_depth(D tag, const ProjectedLanes<D>& q) {
     const DoubleDouble<V> numerator = (q.area * q.product0) * DoubleDouble<V>{q.depth0, hn::Zero(tag)};
-    return divided(tag, q, numerator, hn::Set(tag, 117) * (q.p * (q.product[0] * q.depth0)), never(tag));
+    return divided(tag, q, numerator, hn::Set(tag, 117) * (q.p * (q.product[0] * q.depth0)),
+                   hn::MaskFromVec(hn::Zero(tag)));
 }
 
 /// f: the values at the three vertices.
@@ -145,10 +137,8 @@ HWY_INLINE QuotientLanes<D> perspective_value(D tag, const ProjectedLanes<D>& q,
         max = hn::Max(max, hn::Abs(f[i]));
     }
     const auto zero = hn::Eq(max, hn::Zero(tag));
-    const auto in_range =
-        hn::Or(zero, hn::And(hn::Ge(max, hn::Set(tag, 0x1p-200)), hn::Le(max, hn::Set(tag, 0x1p200))));
     QuotientLanes<D> out = divided(tag, q, numerator, hn::Set(tag, 39) * (q.p * sum), zero);
-    out.valid = hn::And(out.valid, in_range);
+    out.valid = hn::And(out.valid, hn::Or(zero, within(tag, max, 0x1p-200, 0x1p200)));
     return out;
 }
 

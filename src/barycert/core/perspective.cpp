@@ -7,27 +7,20 @@
 namespace barycert::core {
 namespace {
 
-bool usable(const double* vertices, const double* point) {
-    for (int i = 0; i < 3; ++i) {
-        if (!(vertices[3 * i + 2] > 0)) return false;
+/// Names the first number that is not as perspective.hpp requires.
+Status check_usable(const double* vertices, const double* point, const std::string& which = {}) {
+    for (int i = 0; i < 9; ++i) {
+        const double x = vertices[i];
+        const bool depth = i % 3 == 2;
+        if (std::isfinite(x) && (!depth || x > 0)) continue;
+        const std::string vertex = " of vertex " + std::to_string(i / 3);
+        if (!depth) return base::not_finite("coordinate " + std::to_string(i % 3) + vertex, x);
+        return Error{.what = "depth w" + vertex,
+                     .expected = "a finite number above 0",
+                     .found = std::to_string(x),
+                     .remedy = "clip the triangle in clip space, before the division by w"};
     }
-    return all_finite(vertices, 9) && all_finite(point, 2);
-}
-
-/// Names the first number that is not as perspective.hpp requires. Precondition: there is one.
-Error unusable_error(const double* vertices, const double* point, const std::string& which = {}) {
-    for (int i = 0; i < 3; ++i) {
-        const std::string vertex = " of vertex " + std::to_string(i);
-        for (int k = 0; k < 2; ++k) {
-            if (const double x = vertices[3 * i + k]; !std::isfinite(x))
-                return base::not_finite("coordinate " + std::to_string(k) + vertex, x);
-        }
-        if (const double w = vertices[3 * i + 2]; !std::isfinite(w) || !(w > 0))
-            return {.what = "depth w" + vertex,
-                    .expected = "a finite number above 0",
-                    .found = std::to_string(w),
-                    .remedy = "clip the triangle in clip space, before the division by w"};
-    }
+    if (all_finite(point, 2)) return Done{};
     const int k = std::isfinite(point[0]) ? 1 : 0;
     return base::not_finite(which + "coordinate " + std::to_string(k) + " of the point", point[k]);
 }
@@ -41,7 +34,7 @@ Result<Numbers> answer(Numbers& found, double* out, const double* vertices, cons
     for (std::size_t i = 0; i < count; ++i) to[i] = out + i;
     std::uint32_t undecided[1];
     if (perspective_lanes(what, vertices, {{}, {point, point + 1}, 1}, values, 1, to, undecided) == 0) return found;
-    if (!usable(vertices, point)) return unusable_error(vertices, point);
+    if (Status good = check_usable(vertices, point); !good) return good.error();
     found.tier = Tier::exact;
     found.degenerate = !exact_perspective(what, vertices, point, values, 1, out);
     if (found.degenerate) std::fill_n(out, count, nan);
@@ -82,7 +75,7 @@ Status perspective_values(const double* vertices, std::span<const double> points
                                 values.size());
     if (Status size = core::check_output(out.size(), stride, count, "point"); !size) return size;
     constexpr double origin[2] = {};
-    if (!core::usable(vertices, origin)) return core::unusable_error(vertices, origin);
+    if (Status good = core::check_usable(vertices, origin); !good) return good;
     TierCounts counts;
     const bool finite_values = core::all_finite(values.data(), static_cast<int>(values.size()));
     double x[core::block_size] = {}, y[core::block_size] = {};
@@ -101,8 +94,8 @@ Status perspective_values(const double* vertices, std::span<const double> points
         for (std::size_t i = 0; i < left; ++i) {
             const std::size_t j = undecided[i];
             const double* const point = points.data() + 2 * (first + j);
-            if (!core::usable(vertices, point))
-                return core::unusable_error(vertices, point, "point " + std::to_string(first + j) + ", ");
+            if (!core::check_usable(vertices, point))
+                return core::check_usable(vertices, point, "point " + std::to_string(first + j) + ", ");
             const bool proper = core::exact_perspective(PerspectiveAnswer::values, vertices, point, values.data(),
                                                         components, to + stride * j);
             if (!proper) std::fill_n(to + stride * j, components, core::nan);

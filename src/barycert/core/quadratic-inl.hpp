@@ -94,8 +94,7 @@ HWY_INLINE QuadraticValue<D> refined_quadratic(D tag, const QuadraticWeights<s, 
         const DoubleDouble<V> term = w.weight[i] * inner;
         outer = i == n - 1 ? term : outer + term;
     }
-    const auto in_range = hn::And(hn::Ge(max_b, hn::Set(tag, 0x1p-800)), hn::Le(max_b, hn::Set(tag, 0x1p700)));
-    return {outer, max_b * w.error, hn::Or(hn::Eq(max_b, hn::Zero(tag)), in_range)};
+    return {outer, max_b * w.error, hn::Or(hn::Eq(max_b, hn::Zero(tag)), within(tag, max_b, 0x1p-800, 0x1p700))};
 }
 
 /// The value correctly rounded; `certain` is cleared where it may not be.
@@ -104,10 +103,8 @@ HWY_INLINE V quadratic_value(D tag, const QuadraticWeights<s, D>& w, const V (&f
                              hn::Mask<D>& certain) {
     const QuadraticValue<D> q = refined_quadratic<s>(tag, w, f);
     certain = hn::And(certain, q.valid);
-    // low -+ error rounds by u (|low| + error): added to the error as 2 u |low|, and as 2^-40 of itself.
-    const V error = hn::Set(tag, 1 + 0x1p-40) * q.error + hn::Set(tag, 0x1p-52) * hn::Abs(q.value.low);
     // + 0: an exact zero is positive
-    return rounded_if_certain<D>(q.value.high, q.value.low, error, certain) + hn::Zero(tag);
+    return rounded_sum(tag, q.value.high, q.value.low, q.error, certain) + hn::Zero(tag);
 }
 
 }  // namespace barycert::core::HWY_NAMESPACE

@@ -203,9 +203,8 @@ HWY_INLINE Refined<s, D> refine(D tag, const Absolute<s, V>& c) {
     V min_extent = x[0];
     for (int j = 1; j < d; ++j) min_extent = hn::Min(min_extent, x[j]);
     const auto sizes = hn::And(hn::Ge(min_extent, constant(0x1p-200)), hn::Le(max_size, constant(0x1p900)));
-    const auto condition = hn::And(hn::Ge(k, constant(0.125)), hn::Le(k, constant(0x1p36)));
     const auto values = hn::And(hn::Le(g, constant(0x1p500)), hn::Le(out.magnitude, constant(0x1p100)));
-    out.valid = hn::And(sizes, hn::And(condition, values));
+    out.valid = hn::And(sizes, hn::And(within(tag, k, 0.125, 0x1p36), values));
     return out;
 }
 
@@ -222,10 +221,10 @@ HWY_INLINE Refined<s, D> refine_projected(D tag, const Absolute<s, V>& c) {
     Relative<s, V> rounded;
     for (int k = 0; k < d; ++k) {
         for (int i = 0; i < n; ++i) {
-            exact.r[i][k] = difference(c.v[i][k], c.p[k]);
+            exact.r[i][k] = two_difference(c.v[i][k], c.p[k]);
             rounded.r[i][k] = exact.r[i][k].high;
             if (i > 0) {
-                exact.e[i - 1][k] = difference(c.v[i][k], c.v[0][k]);
+                exact.e[i - 1][k] = two_difference(c.v[i][k], c.v[0][k]);
                 rounded.e[i - 1][k] = exact.e[i - 1][k].high;
             }
         }
@@ -267,12 +266,17 @@ HWY_INLINE V rounded_if_certain(V x, V y, V error, hn::Mask<D>& certain) {
     return low;
 }
 
-/// Weight i correctly rounded, where certain. y -+ error rounds by u (|y| + error): added to the error as 2 u |y|, and
-/// as 2^-40 of itself.
+/// The same of all numbers that are off by at most `error` from x + y. y -+ error rounds by u (|y| + error): added to
+/// the error as 2 u |y|, and as 2^-40 of itself.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V rounded_sum(D tag, V x, V y, V error, hn::Mask<D>& certain) {
+    return rounded_if_certain<D>(x, y, hn::Set(tag, 1 + 0x1p-40) * error + hn::Set(tag, 0x1p-52) * hn::Abs(y), certain);
+}
+
+/// Weight i correctly rounded, where certain.
 template <Simplex s, class D>
 HWY_INLINE hn::Vec<D> weight(D tag, const Refined<s, D>& r, int i, hn::Mask<D>& certain) {
-    const auto error = hn::Set(tag, 1 + 0x1p-40) * r.error + hn::Set(tag, 0x1p-52) * hn::Abs(r.correction[i]);
-    return rounded_if_certain<D>(r.weight[i], r.correction[i], error, certain);
+    return rounded_sum(tag, r.weight[i], r.correction[i], r.error, certain);
 }
 
 /// sum of weight i times value i correctly rounded, where certain.
@@ -297,9 +301,7 @@ HWY_INLINE V value(D tag, const Refined<s, D>& r, const V (&f)[vertex_count(s)],
     if constexpr (n == 3) max_value = hn::Max(max_value, hn::Abs(f[2]));
     if constexpr (n == 4) max_value = hn::Max(max_value, max_magnitude(f[2], f[3]));
     const V error = max_value * (hn::Set(tag, n) * r.error + hn::Set(tag, 0x1p-98) * r.magnitude);
-    const auto in_range = hn::Or(hn::Eq(max_value, hn::Zero(tag)), hn::And(hn::Ge(max_value, hn::Set(tag, 0x1p-800)),
-                                                                           hn::Le(max_value, hn::Set(tag, 0x1p900))));
-    certain = hn::And(certain, in_range);
+    certain = hn::And(certain, hn::Or(hn::Eq(max_value, hn::Zero(tag)), within(tag, max_value, 0x1p-800, 0x1p900)));
     // + 0: an exact zero is positive, whatever the signs of the nodal values
     return rounded_if_certain<D>(sum.sum, (sum.sum_rest + sum.product_rest) + corrections, error, certain) +
            hn::Zero(tag);

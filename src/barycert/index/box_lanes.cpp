@@ -9,28 +9,10 @@
 #define HWY_TARGET_INCLUDE "barycert/index/box_lanes.cpp"
 #include "barycert/core/foreach_target.hpp"
 
+#include "barycert/index/records-inl.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace barycert::index::HWY_NAMESPACE {
-
-namespace hn = hwy::HWY_NAMESPACE;
-
-/// BoxGroup::meeting, of vectors of the target.
-HWY_INLINE std::uint32_t meeting(const BoxGroup& group, const CellBox& box) {
-    const hn::CappedTag<std::int32_t, 8> tag;
-    std::uint32_t bits = 0;
-    for (std::size_t l = 0; l < 8; l += hn::MaxLanes(tag)) {
-        auto apart = hn::Zero(tag);
-        for (std::size_t k = 0; k < 3; ++k) {
-            const auto over = hn::Sub(hn::Set(tag, box.high[k]), hn::Load(tag, group.low[k].data() + l));
-            const auto under = hn::Sub(hn::Load(tag, group.high[k].data() + l), hn::Set(tag, box.low[k]));
-            apart = hn::Or(apart, hn::Or(over, under));
-        }
-        std::uint8_t some[8] = {};
-        hn::StoreMaskBits(tag, hn::Gt(apart, hn::Set(tag, -1)), some);
-        bits |= static_cast<std::uint32_t>(some[0]) << l;
-    }
-    return bits;
-}
 
 void meeting_pairs(const BoxGroups& boxes, std::size_t g, const BoxGroups::TakePairs& take) {
     std::array<FacetPair, 256> pairs;

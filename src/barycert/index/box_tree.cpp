@@ -45,9 +45,8 @@ void BoxTree::build(std::size_t first, std::size_t last, std::size_t at) {
     const auto centre = [&](std::uint32_t i, std::size_t axis) {
         return boxes_[i].low[axis] / 2 + boxes_[i].high[axis] / 2;
     };
-    Box centres{{centre(order_[first], 0), centre(order_[first], 1), centre(order_[first], 2)}, {}};
-    centres.high = centres.low;
-    node.box = boxes_[order_[first]];
+    Box centres = empty_box;
+    node.box = empty_box;
     for (std::size_t i = first; i < last; ++i) {
         const std::array<double, 3> c{centre(order_[i], 0), centre(order_[i], 1), centre(order_[i], 2)};
         centres.add({c, c});

@@ -1,6 +1,7 @@
 /// Large arrays without a first value.
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <memory>
 #include <new>
@@ -26,8 +27,8 @@ public:
     const T* data() const { return data_.get(); }
     std::size_t size() const { return size_; }
     std::size_t bytes() const { return size_ * sizeof(T); }
-    T& operator[](std::size_t i) { return data_.get()[i]; }
-    const T& operator[](std::size_t i) const { return data_.get()[i]; }
+    T& operator[](std::integral auto i) { return data_.get()[static_cast<std::size_t>(i)]; }
+    const T& operator[](std::integral auto i) const { return data_.get()[static_cast<std::size_t>(i)]; }
     operator std::span<const T>() const { return {data(), size_}; }
 
 private:

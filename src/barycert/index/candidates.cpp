@@ -145,7 +145,7 @@ void Candidates::add(std::array<Mesh::Index, 2> nodes, std::vector<std::uint32_t
     }
 }
 
-Candidates::Query Candidates::query_of(const Group& group, const Item& item, const Box& place) const {
+std::pair<std::size_t, Box> Candidates::query_of(const Group& group, const Item& item, const Box& place) const {
     const double* const first = item.place_of(group.nodes[0]);
     if (first == nullptr) return {0, place};
     const double* const second = group.nodes[1] < 0 ? nullptr : item.place_of(group.nodes[1]);

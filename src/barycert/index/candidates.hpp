@@ -33,6 +33,17 @@ struct Item {
 /// of good meshes have some tens of cells.
 inline constexpr std::size_t crowd = 256;
 
+/// More than `crowd` of the items are at one node, whose nodes are nodes_of(item).
+template <class NodesOf>
+bool is_crowded(std::size_t nodes, std::size_t items, NodesOf nodes_of) {
+    std::vector<std::uint32_t> count(nodes, 0);
+    std::uint32_t most = 0;
+    for (std::size_t i = 0; i < items; ++i) {
+        for (const Mesh::Index node : nodes_of(i)) most = std::max(most, ++count[static_cast<std::size_t>(node)]);
+    }
+    return most > crowd;
+}
+
 class Candidates {
 public:
     Candidates(int d, std::span<const Item> items, std::size_t most_at_a_node = crowd);
@@ -46,9 +57,8 @@ public:
         return bounds_->for_each(place, [&](std::uint32_t g) {
             const Group& group = groups_[g];
             const auto named = [&](std::uint32_t i) { return found(group.members[i]); };
-            if (group.nodes[0] < 0) return group.trees[0]->for_each(place, named);
-            const Query query = query_of(group, item, place);
-            return group.trees[query.tree]->for_each(query.box, named);
+            const auto [tree, box] = query_of(group, item, place);
+            return group.trees[tree]->for_each(box, named);
         });
     }
 
@@ -61,12 +71,8 @@ private:
         std::vector<std::uint32_t> members;
         std::array<std::optional<BoxTree>, 3> trees;  ///< by place, direction from the first node, and around both
     };
-    struct Query {
-        std::size_t tree;
-        Box box;
-    };
-
-    Query query_of(const Group& group, const Item& item, const Box& place) const;
+    /// Which tree of the group to ask for the item, and for which box.
+    std::pair<std::size_t, Box> query_of(const Group& group, const Item& item, const Box& place) const;
     void add(std::array<Mesh::Index, 2> nodes, std::vector<std::uint32_t> members, std::span<const Item> items);
     void split(Mesh::Index node, const std::vector<std::uint32_t>& members, std::span<const Item> items);
 

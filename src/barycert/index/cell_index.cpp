@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <bit>
+#include <numeric>
 
 #include "barycert/base/arena.hpp"
 
@@ -51,8 +52,7 @@ void pass(std::span<const KeyedPlace> from, KeyedPlace* to, int shift, int width
     std::array<std::uint32_t, 1 << low_bits> next{};
     const std::uint32_t mask = (1U << width) - 1;
     for (const KeyedPlace& item : from) ++next[item.key >> shift & mask];
-    std::uint32_t sum = 0;
-    for (std::uint32_t& n : next) sum += std::exchange(n, sum);
+    std::exclusive_scan(next.begin(), next.end(), next.begin(), 0U);
     for (const KeyedPlace& item : from) to[next[item.key >> shift & mask]++] = item;
 }
 

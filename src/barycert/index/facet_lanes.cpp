@@ -171,11 +171,11 @@ HWY_INLINE std::size_t keep_others(const PlacedFacet* facets, FacetPair* pairs, 
         const std::size_t here = std::min(width, count - first);
         for (std::size_t l = 0; l < width; ++l) some[l] = pairs[first + std::min(l, here - 1)];
         const Pairs of_lanes(tag, facets, some);
-        std::uint8_t bits[8] = {};
-        hn::StoreMaskBits(tag, hn::AndNot(of_lanes.of_same_nodes(), separates(tag, of_lanes)), bits);
+        const auto apart = hn::AndNot(of_lanes.of_same_nodes(), separates(tag, of_lanes));
+        const std::uint32_t bits = mask_bits(tag, apart);
         for (std::size_t l = 0; l < here; ++l) {
             pairs[kept] = some[l];
-            kept += ~bits[0] >> l & 1U;
+            kept += ~bits >> l & 1U;
         }
     }
     return kept;

@@ -8,18 +8,6 @@
 namespace barycert::index {
 namespace {
 
-/// The most facets that one node has.
-std::size_t largest_fan(std::size_t nodes, const std::vector<PlacedFacet>& facets) {
-    std::vector<std::uint32_t> count(nodes, 0);
-    std::uint32_t largest = 0;
-    for (const PlacedFacet& facet : facets) {
-        for (const Mesh::Index node : facet.nodes) {
-            if (node >= 0) largest = std::max(largest, ++count[static_cast<std::size_t>(node)]);
-        }
-    }
-    return largest;
-}
-
 /// Joins facets that come one after the other around a ridge, if the cells of both lie between them, or neither does.
 /// They are all the open facets that have the ridge, without conflicts.
 void join_around(const CellIndex& index, const std::vector<CellFacet>& open, std::span<const Ridge> ridges,
@@ -27,8 +15,8 @@ void join_around(const CellIndex& index, const std::vector<CellFacet>& open, std
     if (ridges.size() == 2) return sets.join(ridges[0].facet, ridges[1].facet);
     const auto cell_follows = [&](const Ridge& ridge) {  // it comes next in the turn
         const auto& [cell, corner] = open[ridge.facet];
-        const Place apex = index.cells[static_cast<std::size_t>(cell)].node[static_cast<std::size_t>(corner)];
-        return turn.to(ridge, index.nodes[static_cast<std::size_t>(apex)].at.data()) == Sign::positive;
+        const Place apex = index.cells[cell].node[static_cast<std::size_t>(corner)];
+        return turn.to(ridge, index.nodes[apex].at.data()) == Sign::positive;
     };
     const std::span<const Ridge> ring = turn.sorted(ridges);
     const Ridge* before = &ring.back();
@@ -46,7 +34,8 @@ class Suspects {
 public:
     Suspects(const CellIndex& index, const std::vector<PlacedFacet>& facets)
         : facets_(facets), d_(static_cast<int>(index.dimension())) {
-        if (largest_fan(index.original_node.size(), facets) <= crowd) {
+        const auto nodes_of = [&](std::size_t f) { return std::span(facets[f].nodes).first(index.dimension()); };
+        if (!is_crowded(index.original_node.size(), facets.size(), nodes_of)) {
             // Facets are in the order of their cells, which is that of space.
             boxes_.emplace(facets.size(),
                            [&](std::size_t f) { return box_of(index, facets[f].at.data(), index.dimension()); });
@@ -122,15 +111,14 @@ Item item_of(const PlacedFacet& facet, int d) {
 }
 
 PlacedFacet placed(const CellIndex& index, const CellFacet& facet) {
-    const auto& node = index.cells[static_cast<std::size_t>(facet.cell)].node;
+    const auto& node = index.cells[facet.cell].node;
     PlacedFacet placed;
     std::size_t count = 0;
     for (std::size_t i = 0; i < index.corners(); ++i) {
         if (i != static_cast<std::size_t>(facet.corner)) placed.nodes[count++] = node[i];
     }
     std::sort(placed.nodes.begin(), placed.nodes.begin() + static_cast<std::ptrdiff_t>(count));
-    for (std::size_t i = 0; i < count; ++i)
-        placed.at[i] = index.nodes[static_cast<std::size_t>(placed.nodes[i])].at.data();
+    for (std::size_t i = 0; i < count; ++i) placed.at[i] = index.nodes[placed.nodes[i]].at.data();
     return placed;
 }
 

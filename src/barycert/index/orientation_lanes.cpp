@@ -22,10 +22,7 @@ HWY_INLINE V determinant(D tag, const V (&v)[4][4], V& bound, hn::Mask<D>& valid
     for (int i = 0; i < d; ++i) {
         for (int k = 0; k < d; ++k) edge[i][k] = v[i][k] - v[d][k];
     }
-    for (int k = 0; k < d; ++k) {
-        extent[k] = max_magnitude(edge[0][k], edge[1][k]);
-        if constexpr (d == 3) extent[k] = hn::Max(extent[k], hn::Abs(edge[2][k]));
-    }
+    extents(edge, extent);
     valid = all_within(tag, extent, 0x1p-300, 0x1p300);
     if constexpr (d == 2) {
         bound = hn::Set(tag, 8.5 * filter_epsilon) * (extent[0] * extent[1]);
@@ -49,11 +46,10 @@ HWY_INLINE void find_signs(D tag, const CellRecord* cells, const NodeRecord* nod
             tag, [&](std::size_t l) HWY_ATTR { return nodes[cells[l].node[static_cast<std::size_t>(i)]].at.data(); },
             v[i]);
     const V value = determinant<s>(tag, v, bound, valid);
-    std::uint8_t positive[8] = {}, negative[8] = {};
-    hn::StoreMaskBits(tag, hn::And(valid, hn::Gt(value, bound)), positive);
-    hn::StoreMaskBits(tag, hn::And(valid, hn::Lt(value, hn::Neg(bound))), negative);
+    const std::uint32_t positive = mask_bits(tag, hn::And(valid, hn::Gt(value, bound)));
+    const std::uint32_t negative = mask_bits(tag, hn::And(valid, hn::Lt(value, hn::Neg(bound))));
     for (std::size_t l = 0; l < hn::MaxLanes(D()); ++l)
-        out[l] = static_cast<std::int8_t>((positive[0] >> l & 1) - (negative[0] >> l & 1));
+        out[l] = static_cast<std::int8_t>((positive >> l & 1) - (negative >> l & 1));
 }
 
 template <Simplex s>

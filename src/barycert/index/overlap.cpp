@@ -54,22 +54,6 @@ bool edges_separate(const Corners& a, const Corners& b, const std::array<std::si
     return b2 != a_side && b3 != a_side;
 }
 
-bool has(std::span<const Place> ascending, Place cell) {
-    return std::binary_search(ascending.begin(), ascending.end(), cell);
-}
-
-bool overlapped(const CellIndex& index, Place cell, std::span<const Place> degenerate, const CellTree& tree) {
-    const auto d = static_cast<int>(index.dimension());
-    const Corners at = index.corner_points(cell);
-    bool found = false;
-    tree.for_each_meeting(box_of(index, cell), [&](std::size_t i) {
-        const auto other = static_cast<Place>(i);
-        if (other != cell && !has(degenerate, other)) found = interiors_meet(d, at, index.corner_points(other));
-        return !found;
-    });
-    return found;
-}
-
 }  // namespace
 
 bool may_overlap(int d, const Corners& a, const Corners& b) {
@@ -89,47 +73,44 @@ bool interiors_meet(int d, const Corners& a, const Corners& b) {
 
 Item item_of(const CellIndex& index, Place cell) {
     Item item{.count = static_cast<int>(index.corners()), .at = index.corner_points(cell)};
-    std::copy_n(index.cells[static_cast<std::size_t>(cell)].node.begin(), index.corners(), item.nodes.begin());
+    std::copy_n(index.cells[cell].node.begin(), index.corners(), item.nodes.begin());
     return item;
 }
 
-bool is_crowded(const CellIndex& index) {
-    std::vector<std::uint32_t> cells(index.original_node.size(), 0);
-    std::uint32_t most = 0;
-    for (std::size_t c = 0; c < index.cell_count(); ++c) {
-        for (std::size_t i = 0; i < index.corners(); ++i)
-            most = std::max(most, ++cells[static_cast<std::size_t>(index.cells[c].node[i])]);
+bool for_each_near(const CellIndex& index, std::span<const Item> items, std::size_t few,
+                   const std::function<const CellTree&()>& tree,
+                   const std::function<Decided(std::size_t, Place)>& use) {
+    const auto nodes_of = [&](std::size_t c) { return std::span(index.cells[c].node).first(index.corners()); };
+    if (items.size() < few && !is_crowded(index.original_node.size(), index.cell_count(), nodes_of)) {
+        const CellTree& cells = tree();
+        base::parallel_for(items.size(), [&](std::size_t i) {
+            const CellBox box = box_of(index, items[i].at.data(), static_cast<std::size_t>(items[i].count));
+            cells.for_each_meeting(box, [&](std::size_t c) { return use(i, static_cast<Place>(c)) != Decided::item; });
+        });
+        return true;
     }
-    return most > crowd;
+    const Candidates candidates(static_cast<int>(index.dimension()), items);
+    base::parallel_for_each(index.cell_count(), 1 << 10, [&](std::size_t c) {
+        const auto cell = static_cast<Place>(c);
+        candidates.for_each(item_of(index, cell), [&](std::uint32_t i) { return use(i, cell) != Decided::cell; });
+    });
+    return false;
 }
 
-// A few are looked up in the tree of all cells. If they are many, or if there is a node around which the boxes of too
-// many cells meet, all cells are looked up among them.
 std::vector<std::uint8_t> find_overlapped(const CellIndex& index, std::span<const Place> asked,
                                           std::span<const Place> degenerate,
                                           const std::function<const CellTree&()>& tree) {
     std::vector<std::uint8_t> out(asked.size(), 0);
-    if (64 * asked.size() < index.cell_count() && !is_crowded(index)) {
-        const CellTree& cells = tree();
-        base::parallel_for(asked.size(),
-                           [&](std::size_t i) { out[i] = overlapped(index, asked[i], degenerate, cells) ? 1 : 0; });
-        return out;
-    }
-    const auto d = static_cast<int>(index.dimension());
     std::vector<Item> items(asked.size());
     for (std::size_t i = 0; i < asked.size(); ++i) items[i] = item_of(index, asked[i]);
-    const Candidates candidates(d, items);
-    base::parallel_for_each(index.cell_count(), 1 << 10, [&](std::size_t c) {
-        const auto cell = static_cast<Place>(c);
-        if (has(degenerate, cell)) return;
-        const Item item = item_of(index, cell);
-        candidates.for_each(item, [&](std::uint32_t i) {
-            const std::atomic_ref<std::uint8_t> flag(out[i]);
-            if (asked[i] != cell && flag.load(std::memory_order_relaxed) == 0 &&
-                interiors_meet(d, items[i].at, item.at))
-                flag.store(1, std::memory_order_relaxed);
-            return true;
-        });
+    for_each_near(index, items, (index.cell_count() + 63) / 64, tree, [&](std::size_t i, Place cell) {
+        const std::atomic_ref<std::uint8_t> flag(out[i]);
+        if (flag.load(std::memory_order_relaxed) != 0) return Decided::item;
+        if (asked[i] == cell || std::ranges::binary_search(degenerate, cell) ||
+            !interiors_meet(static_cast<int>(index.dimension()), items[i].at, index.corner_points(cell)))
+            return Decided::nothing;
+        flag.store(1, std::memory_order_relaxed);
+        return Decided::item;
     });
     return out;
 }

@@ -35,13 +35,13 @@ bool all_on_side(const Plane& plane, std::span<const Corner> corners, Sign side)
 bool may_cross(const CellIndex& index, Place cell, const PlacedFacet& facet) {
     const auto d = static_cast<int>(index.dimension());
     const auto n = static_cast<std::size_t>(d);
-    const CellRecord& record = index.cells[static_cast<std::size_t>(cell)];
+    const CellRecord& record = index.cells[cell];
     std::array<Corner, 4> of_cell{};
     std::array<Corner, 3> of_facet{};
     for (std::size_t j = 0; j < n; ++j) of_facet[j] = {facet.at[j], false};
     std::size_t common = 0, apex = 0;
     for (std::size_t i = 0; i <= n; ++i) {
-        of_cell[i] = {index.nodes[static_cast<std::size_t>(record.node[i])].at.data(), false};
+        of_cell[i] = {index.nodes[record.node[i]].at.data(), false};
         for (std::size_t j = 0; j < n; ++j) {
             if (record.node[i] == facet.nodes[j]) of_cell[i].common = of_facet[j].common = true;
         }
@@ -132,32 +132,19 @@ private:
 
     void mark_crossed(const std::vector<PlacedFacet>& bad) {
         for (const Place cell : links_.degenerate) contest(cell);
-        const auto ask = [&](Place cell, const PlacedFacet& facet) {
-            if (!contested(cell) && may_cross(index_, cell, facet)) contest(cell);
-        };
-        if (!is_crowded(index_)) {
-            const CellTree& tree = tree_();
-            base::parallel_for(bad.size(), [&](std::size_t f) {
-                tree.for_each_meeting(box_of(index_, bad[f].at.data(), index_.dimension()), [&](std::size_t cell) {
-                    ask(static_cast<Place>(cell), bad[f]);
-                    return true;
-                });
-            });
-            return;
-        }
         std::vector<Item> items(bad.size());
         for (std::size_t f = 0; f < bad.size(); ++f) items[f] = item_of(bad[f], d());
-        const Candidates candidates(d(), items);
+        const bool all = for_each_near(index_, items, SIZE_MAX, tree_, [&](std::size_t f, Place cell) {
+            if (!contested(cell) && may_cross(index_, cell, bad[f])) contest(cell);
+            return contested(cell) ? Decided::cell : Decided::nothing;
+        });
+        if (all) return;
+        // A facet of a cell's own nodes meets it in a common face, so it was no candidate.
         std::vector<std::array<Mesh::Index, 3>> nodes(bad.size());
         for (std::size_t f = 0; f < bad.size(); ++f) nodes[f] = bad[f].nodes;
         std::sort(nodes.begin(), nodes.end());
         base::parallel_for_each(index_.cell_count(), 1 << 10, [&](std::size_t c) {
             const auto cell = static_cast<Place>(c);
-            candidates.for_each(item_of(index_, cell), [&](std::uint32_t f) {
-                ask(cell, bad[f]);
-                return !contested(cell);
-            });
-            // A facet of the cell's own nodes meets it in a common face, so it is no candidate.
             for (std::size_t i = 0; i < index_.corners(); ++i) {
                 if (index_.cells[c].next[i] < 0) continue;
                 const auto own = placed(index_, {cell, static_cast<std::int32_t>(i)}).nodes;

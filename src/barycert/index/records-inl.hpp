@@ -1,4 +1,4 @@
-// Internal: records of four doubles into vectors, one record a lane.
+// Internal: records of four doubles into vectors, one record a lane; which boxes of a group meet another.
 //
 // Included once per SIMD target.
 #if defined(BARYCERT_INDEX_RECORDS_INL_HPP) == defined(HWY_TARGET_TOGGLE)
@@ -15,13 +15,17 @@
 #include <cstddef>
 #include <cstring>
 
+#include "barycert/core/lane_loop-inl.hpp"
+#include "barycert/index/cell_tree.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace barycert::index::HWY_NAMESPACE {
 
+namespace hn = hwy::HWY_NAMESPACE;
+
 /// out[k], lane l = address(l)[k]. Addresses are multiples of 32. A transpose: on most processors faster than gathers.
-template <class D, class Address, class V = hwy::HWY_NAMESPACE::Vec<D>>
+template <class D, class Address, class V = hn::Vec<D>>
 HWY_INLINE void load_records(D tag, Address address, V (&out)[4]) {
-    namespace hn = hwy::HWY_NAMESPACE;
     constexpr std::size_t width = hn::MaxLanes(D());
 #if HWY_TARGET <= HWY_AVX2
     if constexpr (width == 8) {
@@ -56,6 +60,22 @@ HWY_INLINE void load_records(D tag, Address address, V (&out)[4]) {
         }
         for (std::size_t k = 0; k < 4; ++k) out[k] = hn::Load(tag, rows[k]);
     }
+}
+
+/// BoxGroup::meeting, of vectors of the target.
+HWY_INLINE std::uint32_t meeting(const BoxGroup& group, const CellBox& box) {
+    const hn::CappedTag<std::int32_t, 8> tag;
+    std::uint32_t bits = 0;
+    for (std::size_t l = 0; l < 8; l += hn::MaxLanes(tag)) {
+        auto apart = hn::Zero(tag);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto over = hn::Sub(hn::Set(tag, box.high[k]), hn::Load(tag, group.low[k].data() + l));
+            const auto under = hn::Sub(hn::Load(tag, group.high[k].data() + l), hn::Set(tag, box.low[k]));
+            apart = hn::Or(apart, hn::Or(over, under));
+        }
+        bits |= core::HWY_NAMESPACE::mask_bits(tag, hn::Gt(apart, hn::Set(tag, -1))) << l;
+    }
+    return bits;
 }
 
 }  // namespace barycert::index::HWY_NAMESPACE

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "barycert/base/arena.hpp"
@@ -39,8 +39,7 @@ std::vector<Ridge> ridges_of(int d, const std::vector<Facet>& facets) {
             ++next[node];
         }
     }
-    std::uint32_t sum = 0;
-    for (std::uint32_t& count : next) sum += std::exchange(count, sum);
+    std::exclusive_scan(next.begin(), next.end(), next.begin(), 0U);
     std::vector<Ridge> ridges(facets.size() * n);
     for (std::size_t f = 0; f < facets.size(); ++f) {
         for (std::size_t i = 0; i < n; ++i) {

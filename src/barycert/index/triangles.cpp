@@ -22,7 +22,7 @@ std::vector<Place> first_at_place(const CellIndex& index) {
             run.resize(last - first);
             for (std::size_t i = first; i < last; ++i) same[i] = run[i - first] = static_cast<Place>(i);
             const auto at = [&](Place p) -> auto& {
-                return index.nodes[static_cast<std::size_t>(p)].at;
+                return index.nodes[p].at;
             };
             if (run.size() > 1) std::ranges::sort(run, {}, [&](Place p) { return std::pair(at(p), p); });
             for (std::size_t i = 1; i < run.size(); ++i) {
@@ -73,7 +73,7 @@ Triangles place_triangles(std::span<const double> points, std::span<const Mesh::
         for (const auto& [a, b] : {std::pair(0U, 1U), {1U, 2U}, {0U, 1U}}) {
             if (f.nodes[b] < f.nodes[a]) std::swap(f.nodes[a], f.nodes[b]), ++swaps;
         }
-        for (std::size_t k = 0; k < 3; ++k) f.at[k] = all.index.nodes[static_cast<std::size_t>(f.nodes[k])].at.data();
+        for (std::size_t k = 0; k < 3; ++k) f.at[k] = all.index.nodes[f.nodes[k]].at.data();
         all.odd[i] = swaps % 2;
         Mesh::Index& number = all.index.original[i];
         number = numbers[static_cast<std::size_t>(number)];

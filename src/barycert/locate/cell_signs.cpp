@@ -13,7 +13,7 @@ unsigned facets_along_axes(const CellIndex& index, const CellRecord& cell, const
     for (std::size_t k = 0; k < space_dimension(s); ++k) {
         unsigned other = 0;
         for (std::size_t i = 0; i < vertex_count(s); ++i) {
-            const double v = index.nodes[static_cast<std::size_t>(cell.node[i])].at[k];
+            const double v = index.nodes[cell.node[i]].at[k];
             other |= (std::bit_cast<std::uint64_t>(v) == std::bit_cast<std::uint64_t>(p[k]) ? 0U : 1U) << i;
         }
         found |= std::has_single_bit(other) ? other : 0;
@@ -44,7 +44,7 @@ std::optional<WeightSigns> filtered(const CellIndex& index, const CellRecord& ce
 }  // namespace
 
 WeightSigns cell_signs(const CellIndex& index, Place cell, const double* point, TierCounts& tiers) {
-    const CellRecord& record = index.cells[static_cast<std::size_t>(cell)];
+    const CellRecord& record = index.cells[cell];
     const auto certain = index.simplex == Simplex::triangle ? filtered<Simplex::triangle>(index, record, point)
                                                             : filtered<Simplex::tetrahedron>(index, record, point);
     // All numbers are finite: there is no Error.
@@ -55,7 +55,7 @@ WeightSigns cell_signs(const CellIndex& index, Place cell, const double* point, 
 
 Feature feature_of(const CellIndex& index, Place cell, WeightSigns signs) {
     if (index.inside == nullptr || signs.region() != Region::boundary) return signs.feature(index.simplex);
-    const auto original = static_cast<std::size_t>(index.original[static_cast<std::size_t>(cell)]);
+    const auto original = static_cast<std::size_t>(index.original[cell]);
     return mesh::feature_of_whole(index.inside[original], signs.bits() >> 4U & 0xfU,
                                   static_cast<int>(index.dimension()));
 }

@@ -27,7 +27,7 @@ struct CellAtPoint {
         core::HWY_NAMESPACE::Relative<s, double> relative;
         auto& r = relative.r;
         for (std::size_t i = 0; i < n; ++i) {
-            const auto& at = index.nodes[static_cast<std::size_t>(cell.node[i])].at;
+            const auto& at = index.nodes[cell.node[i]].at;
             for (std::size_t k = 0; k < d; ++k) r[i][k] = at[k] - p[k];
         }
         for (std::size_t k = 0; k < d; ++k) {
@@ -54,12 +54,12 @@ Feature feature_of(const CellIndex& index, Place cell, WeightSigns signs);
 
 /// False if the cell's box does not hold the point, told by comparisons alone.
 inline bool box_holds(const CellIndex& index, Place cell, const double* point) {
-    const CellRecord& record = index.cells[static_cast<std::size_t>(cell)];
+    const CellRecord& record = index.cells[cell];
     bool holds = true;
     for (std::size_t k = 0; k < index.dimension(); ++k) {
         bool below = false, above = false;  // some vertex is not above, not below
         for (const Place node : record.node) {
-            const double x = index.nodes[static_cast<std::size_t>(node)].at[k];
+            const double x = index.nodes[node].at[k];
             below |= x <= point[k];
             above |= x >= point[k];
         }

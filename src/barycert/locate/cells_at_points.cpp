@@ -11,6 +11,8 @@
 #define HWY_TARGET_INCLUDE "barycert/locate/cells_at_points.cpp"
 #include "barycert/core/foreach_target.hpp"
 
+#include "barycert/core/lane_loop-inl.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace barycert::locate::HWY_NAMESPACE {
 
@@ -64,11 +66,7 @@ HWY_INLINE bool look(D tag, const Mesh::Index* corner, const CellBlock& block, c
         open = hn::AndNot(fits, open);
     }
     found = hn::Or(found, open);
-    std::uint8_t mask[8] = {};
-    hn::StoreMaskBits(tag, found, mask);
-    near = 0;
-    for (std::size_t i = 0; i < (hn::MaxLanes(tag) + 7) / 8; ++i) near |= static_cast<std::uint64_t>(mask[i]) << 8 * i;
-    if constexpr (hn::MaxLanes(D()) < 8) near &= (1U << hn::MaxLanes(D())) - 1;
+    near = core::HWY_NAMESPACE::mask_bits(tag, found);
     if (near == 0) return true;
     const auto packed = [&](const V(&v)[3])
                             HWY_ATTR { return hn::Or(v[0], hn::Or(hn::ShiftLeft<8>(v[1]), hn::ShiftLeft<16>(v[2]))); };

@@ -37,10 +37,7 @@ ContestedCells::Lists ContestedCells::make_lists() const {
         tree_.for_pairs(g, [&](std::span<index::FacetPair> some) {
             pairs += some.size();
             for (auto [i, j] : some) {
-                const auto original = [&](std::uint32_t c) {
-                    return index_.original[static_cast<std::size_t>(cells_[c])];
-                };
-                if (original(i) < original(j)) std::swap(i, j);
+                if (index_.original[cells_[i]] < index_.original[cells_[j]]) std::swap(i, j);
                 if (may_overlap(static_cast<int>(index_.dimension()), index_.corner_points(cells_[i]),
                                 index_.corner_points(cells_[j])))
                     found[g].push_back({i, cells_[j]});
@@ -65,10 +62,9 @@ ContestedCells::Lists ContestedCells::make_lists() const {
 
 void ContestedCells::find_owners(const PointRecord* points, const std::uint32_t* which, std::size_t count, Place* owner,
                                  Feature* feature, TierCounts& tests) const {
-    const auto original = [&](Place place) { return index_.original[static_cast<std::size_t>(place)]; };
     const auto ask = [&](std::uint32_t i, Place cell) {
         const double* const point = points[i].at.data();
-        if (original(cell) >= original(owner[i]) || !box_holds(index_, cell, point)) return;
+        if (index_.original[cell] >= index_.original[owner[i]] || !box_holds(index_, cell, point)) return;
         const WeightSigns signs = cell_signs(index_, cell, point, tests);
         if (!signs.contains()) return;
         owner[i] = cell;

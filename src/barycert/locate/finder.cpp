@@ -18,19 +18,11 @@ void Finder::find(const PointRecord* points, std::size_t count, Place* owner, Fe
     if (asked_count_ != 0) ask_candidates(points, owner, feature, counts.tests);
     counts.ways.walk += count - asked_count_;
     counts.ways.candidates += asked_count_;
-    std::uint64_t interior = arrived_.count;
-    if (interior != count ||
-        (proof_ != nullptr && !proof_->contested.empty())) {  // in contested cells an owner may be another one
-        interior = 0;
-        for (std::size_t i = 0; i < count; ++i) {
-            if (feature[i] == Feature::interior) {
-                ++interior;
-            } else {
-                counts.add(feature[i]);
-            }
-        }
-    }
+    const auto interior = static_cast<std::size_t>(std::count(feature, feature + count, Feature::interior));
     counts.add(Feature::interior, interior);
+    for (std::size_t i = 0; interior != count && i < count; ++i) {
+        if (feature[i] != Feature::interior) counts.add(feature[i]);
+    }
 }
 
 void Finder::settle(const PointRecord& point, Place stuck, Place& owner, Feature& feature) {
@@ -84,7 +76,7 @@ void Finder::walk(const PointRecord* points, Place* owner, Feature* feature, Loc
         const Walk& end = arrived_.walks[i];
         owner[end.point] = end.cell;
         feature[end.point] = Feature::interior;
-        __builtin_prefetch(&data_.index.original[static_cast<std::size_t>(end.cell)]);
+        __builtin_prefetch(&data_.index.original[end.cell]);
     }
     tests.add(Tier::filter, arrived_.count);
     if (!proof_->contested.empty()) ask_contested(points, owner, feature, counts);
@@ -107,8 +99,7 @@ Place Finder::out_of_circle(const PointRecord& point, Place cell, TierCounts& te
         std::array<Place, 4> beyond{};
         std::size_t count = 0;
         for (std::size_t i = 0; i < data_.index.corners(); ++i) {
-            if (signs.sign(static_cast<int>(i)) == Sign::negative)
-                beyond[count++] = data_.index.cells[static_cast<std::size_t>(cell)].next[i];
+            if (signs.sign(static_cast<int>(i)) == Sign::negative) beyond[count++] = data_.index.cells[cell].next[i];
         }
         const Place next = count == 0 ? -1 : beyond[random.below(count)];
         if (next < 0) return ~cell;
@@ -142,10 +133,7 @@ void Finder::resolve(const PointRecord& point, Walk stuck, Place* owner, Feature
     }
     Place& first = owner[stuck.point] = stuck.cell;
     if (signs.region() != Region::interior) {
-        data_.node_cells().for_each_around(index, stuck.cell, signs, [&](Place lowest) {
-            first = lowest;
-            return false;
-        });
+        first = data_.node_cells().lowest_around(index, stuck.cell, signs);
         // Where whole cells do not meet face to face, a feature of one need not be one of the other.
         if (index.inside != nullptr) signs = cell_signs(index, first, point.at.data(), tests);
     }
@@ -154,11 +142,10 @@ void Finder::resolve(const PointRecord& point, Walk stuck, Place* owner, Feature
 
 void Finder::ask_candidates(const PointRecord* points, Place* owner, Feature* feature, TierCounts& tests) {
     const CellIndex& index = data_.index;
-    const auto original = [&](Place place) { return index.original[static_cast<std::size_t>(place)]; };
     for_candidates(points, asked_.data(), asked_count_, tests, [&](const Candidate& c, WeightSigns signs) {
         if (!signs.contains()) return;
         Place& best = owner[c.point];
-        if (best >= 0 && original(best) < original(c.cell)) return;
+        if (best >= 0 && index.original[best] < index.original[c.cell]) return;
         best = c.cell;
         feature[c.point] = feature_of(index, c.cell, signs);
     });

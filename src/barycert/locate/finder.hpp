@@ -38,9 +38,7 @@ public:
         std::array<std::uint32_t, chunk_size> which;
         std::iota(which.begin(), which.begin() + static_cast<std::ptrdiff_t>(count), 0);
         for_candidates(points, which.data(), count, counts.tests, [&](const Candidate& c, WeightSigns signs) {
-            if (signs.contains())
-                found(c.point, data_.index.original[static_cast<std::size_t>(c.cell)],
-                      feature_of(data_.index, c.cell, signs));
+            if (signs.contains()) found(c.point, data_.index.original[c.cell], feature_of(data_.index, c.cell, signs));
         });
     }
 

@@ -17,6 +17,7 @@ namespace barycert::locate::HWY_NAMESPACE {
 
 using namespace core::HWY_NAMESPACE;
 using index::HWY_NAMESPACE::load_records;
+using index::HWY_NAMESPACE::meeting;
 
 // Bins of points.
 
@@ -43,9 +44,8 @@ public:
         for (std::size_t k = 0; k < d; ++k) {
             const V zero = x[k] - x[k];  // of finite numbers alone
             strange_ = strange_ + zero;
-            const auto within =
-                hn::And(hn::Ge(x[k], hn::Set(tag, index_.low[k])), hn::Le(x[k], hn::Set(tag, index_.high[k])));
-            in_box = k == 0 ? within : hn::And(in_box, within);
+            const auto own = within(tag, x[k], index_.low[k], index_.high[k]);
+            in_box = k == 0 ? own : hn::And(in_box, own);
         }
         const Quantizer& quantizer = index_.bins.quantizer();
         hn::Vec<I> q[d];
@@ -113,25 +113,6 @@ bool find_bins(const CellIndex& index, const Occupancy* occupancy, std::span<con
 
 // Cells whose boxes hold a point.
 
-/// A bit for each of the eight boxes that hold q.
-HWY_INLINE std::uint32_t boxes_holding(const BoxGroup& group, const std::int32_t (&q)[3]) {
-    const hn::CappedTag<std::int32_t, 8> tag;
-    constexpr std::size_t width = hn::MaxLanes(hn::CappedTag<std::int32_t, 8>());
-    std::uint32_t found = 0;
-    for (std::size_t at = 0; at < 8; at += width) {
-        auto beyond = hn::MaskFromVec(hn::Zero(tag));
-        for (std::size_t k = 0; k < 3; ++k) {
-            const auto x = hn::Set(tag, q[k]);
-            beyond = hn::Or(beyond, hn::Gt(hn::Load(tag, group.low[k].data() + at), x));
-            beyond = hn::Or(beyond, hn::Lt(hn::Load(tag, group.high[k].data() + at), x));
-        }
-        std::uint8_t bits[8] = {};
-        hn::StoreMaskBits(tag, hn::Not(beyond), bits);
-        found |= static_cast<std::uint32_t>(bits[0] & ((1U << width) - 1)) << at;
-    }
-    return found;
-}
-
 void find_candidates(const locate::CellIndex& index, const locate::CellTree& tree, const locate::PointRecord* points,
                      const std::uint32_t* which, std::size_t count, std::vector<Candidate>& out) {
     struct Open {
@@ -139,15 +120,13 @@ void find_candidates(const locate::CellIndex& index, const locate::CellTree& tre
     };
     Open stack[8 * 12];  // 2^31 cells have 11 levels; each leaves at most 7 of its 8 behind
     for (std::size_t i = 0; i < count; ++i) {
-        const auto& p = points[which[i]].at;
-        std::int32_t q[3] = {};
-        for (std::size_t k = 0; k < index.dimension(); ++k) q[k] = index.bins.quantizer().at(k, p[k]);
+        const double* const p = points[which[i]].at.data();
+        const CellBox at = box_of(index, &p, 1);
         std::size_t top = 0;
         stack[top++] = {static_cast<std::uint32_t>(tree.levels() - 1), 0};
         while (top > 0) {
             const Open open = stack[--top];
-            std::uint32_t bits = boxes_holding(tree.level(open.level)[open.group], q);
-            for (; bits != 0; bits &= bits - 1) {
+            for (std::uint32_t bits = meeting(tree.level(open.level)[open.group], at); bits != 0; bits &= bits - 1) {
                 const std::uint32_t box = 8 * open.group + static_cast<std::uint32_t>(__builtin_ctz(bits));
                 if (open.level == 0) {
                     out.push_back({which[i], static_cast<Place>(box)});
@@ -245,7 +224,7 @@ constexpr std::size_t found_between = 4;
 template <Simplex s, std::size_t width>
 HWY_INLINE void fetch_nodes(const locate::CellIndex& index, const NodeRecord* nodes, const Walk* walks) {
     for (std::size_t l = 0; l < width; ++l) {
-        const auto& node = index.cells[static_cast<std::size_t>(walks[l].cell)].node;
+        const auto& node = index.cells[walks[l].cell].node;
         for (std::size_t i = 0; i < vertex_count(s); ++i) __builtin_prefetch(&nodes[static_cast<std::size_t>(node[i])]);
     }
 }

@@ -132,7 +132,7 @@ Status Locator::locate(std::span<const double> points, std::span<Mesh::Index> ce
                         const Feature* feature) {
             Location* const to = found->data() + records->number;
             for (std::size_t i = 0; i < n; ++i) {
-                to[i] = {owner[i] < 0 ? -1 : index.original[static_cast<std::size_t>(owner[i])], feature[i]};
+                to[i] = {owner[i] < 0 ? -1 : index.original[owner[i]], feature[i]};
                 if (mapped) mapped->push(records[i], to[i], owner + i, n - i);
             }
         }
@@ -196,16 +196,14 @@ Result<Table> Locator::locate_all(std::span<const double> points, int threads, N
     if (Status status = locate::check_size(points, data_->index.dimension()); !status) return status.error();
     struct Found {
         std::size_t point;
-        Mesh::Index cell;
-        Feature feature;
+        Location location;
     };
     const std::size_t d = data_->index.dimension(), count = points.size() / d;
     if (Status status = locate::check_finite(points, d); !status && nonfinite == NonfinitePoints::error)
         return status.error();
     constexpr std::size_t block = std::size_t{1} << 13;
     const std::size_t blocks = (count + block - 1) / block;
-    std::vector<std::vector<Found>> found(blocks);
-    std::vector<LocationCounts> parts(blocks);
+    std::vector<Table> parts(blocks);
     base::in_arena(threads, data_->index.cell_count() + count, [&] {
         data_->prepare(count);
         base::parallel_for(blocks, [&](std::size_t b) {
@@ -213,62 +211,52 @@ Result<Table> Locator::locate_all(std::span<const double> points, int threads, N
             locate::SortedPoints sorted;
             sorted.sort(data_->index, data_->occupancy(), points.subspan(d * first, d * size));
             locate::Finder finder(*data_, data_->index.nodes.data(), size);
-            std::vector<std::size_t> number(size + 1);
-            sorted.for_each_in_callers_order([](std::size_t) {},
-                                             [&](std::size_t i, std::size_t place) { number[place] = first + i; });
+            Table& part = parts[b];
+            LocationCounts& counts = part.counts.locations;
+            std::vector<Found> found;
             std::array<locate::PointRecord, locate::chunk_size> records;
             for (std::size_t at = 0; at < sorted.size(); at += locate::chunk_size) {
                 const std::size_t n = std::min(locate::chunk_size, sorted.size() - at);
                 sorted.copy(at, n, records.data());
-                finder.find_all(records.data(), n, parts[b],
-                                [&](std::uint32_t point, Mesh::Index cell, Feature feature) {
-                                    found[b].push_back({number[at + point], cell, feature});
-                                });
+                finder.find_all(records.data(), n, counts, [&](std::uint32_t point, Mesh::Index cell, Feature feature) {
+                    found.push_back({first + sorted.entries()[at + point].number, {cell, feature}});
+                });
             }
-            parts[b].ways.no_cell_near += sorted.left_out();
-            const auto key = [](const Found& f) { return std::pair(f.point, f.cell); };
-            std::ranges::sort(found[b], {}, key);
+            counts.ways.no_cell_near += sorted.left_out();
+            std::ranges::sort(found, {}, [](const Found& f) { return std::pair(f.point, f.location.cell); });
             const auto same = [&](const Found& f, const Found& g) {  // parts of one cell
-                return f.point == g.point && mesh().cell_number(f.cell) == mesh().cell_number(g.cell);
+                return f.point == g.point && mesh().cell_number(f.location.cell) == mesh().cell_number(g.location.cell);
             };
-            found[b].erase(std::unique(found[b].begin(), found[b].end(), same), found[b].end());
-            if (!data_->mapped) return;
-            std::vector<Found> mapped;
+            found.erase(std::unique(found.begin(), found.end(), same), found.end());
             std::vector<Location> all;
-            for (std::size_t i = 0, at = 0; i < size; ++i) {
+            for (std::size_t i = first, at = 0; i < first + size; ++i) {
+                const auto point = points.subspan(d * i, d);
                 all.clear();
-                for (; at < found[b].size() && found[b][at].point == first + i; ++at)
-                    all.push_back({found[b][at].cell, found[b][at].feature});
-                if (base::all_finite(points.subspan(d * (first + i), d)))
-                    data_->mapped->all_owners(&points[d * (first + i)], all);
-                for (const Location& own : all) mapped.push_back({first + i, own.cell, own.feature});
+                for (; at < found.size() && found[at].point == i; ++at) all.push_back(found[at].location);
+                if (data_->mapped && base::all_finite(point)) data_->mapped->all_owners(point.data(), all);
+                if (all.empty()) all.emplace_back();
+                counts.add(all.front().feature);
+                for (const Location& own : all) {
+                    part.points.insert(part.points.end(), point.begin(), point.end());
+                    part.cells.push_back(own.cell);
+                    part.features.push_back(own.feature);
+                }
+                part.point_begin.push_back(part.cells.size());
             }
-            found[b] = std::move(mapped);
         });
     });
     Table table;
     table.dimension = mesh().dimension;
     table.counts.locations.not_finite = locate::count_not_finite(points, d);
-    const auto push = [&](std::size_t point, Mesh::Index cell, Feature feature) {
-        table.points.insert(table.points.end(), points.data() + d * point, points.data() + d * (point + 1));
-        table.cells.push_back(cell);
-        table.features.push_back(feature);
-    };
     table.point_begin.reserve(count + 1);
     table.point_begin.push_back(0);
-    for (std::size_t b = 0; b < blocks; ++b) {
-        std::size_t at = 0;
-        for (std::size_t i = b * block; i < std::min(count, (b + 1) * block); ++i) {
-            const bool inside = at < found[b].size() && found[b][at].point == i;
-            table.counts.locations.add(inside ? found[b][at].feature : Feature::outside);
-            if (!inside) push(i, -1, Feature::outside);
-            for (; at < found[b].size() && found[b][at].point == i; ++at)
-                push(i, found[b][at].cell, found[b][at].feature);
-            table.point_begin.push_back(table.cells.size());
-        }
-        table.counts.locations.tests.add(parts[b].tests);
-        table.counts.locations.ways.add(parts[b].ways);
-        found[b] = {};
+    for (Table& part : parts) {
+        for (const auto end : part.point_begin) table.point_begin.push_back(table.cells.size() + end);
+        table.points.insert(table.points.end(), part.points.begin(), part.points.end());
+        table.cells.insert(table.cells.end(), part.cells.begin(), part.cells.end());
+        table.features.insert(table.features.end(), part.features.begin(), part.features.end());
+        table.counts.locations.add(part.counts.locations);
+        part = {};
     }
     return table;
 }

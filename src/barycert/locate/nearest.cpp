@@ -54,13 +54,12 @@ public:
                     open(tree_.box(now.level - 1, i), now.level - 1, i, next);
                 }
             }
-            if (now.level == 0) {
-                std::sort(next.begin(), next.end(), [](const Open& a, const Open& b) { return a.key < b.key; });
-                for (const Open& cell : next) try_cell(cell.i);
-            } else {
-                std::sort(next.begin(), next.end(), [](const Open& a, const Open& b) { return b.key < a.key; });
+            std::sort(next.begin(), next.end(), [](const Open& a, const Open& b) { return b.key < a.key; });
+            if (now.level != 0) {
                 stack.insert(stack.end(), next.begin(), next.end());
+                continue;
             }
+            for (; !next.empty(); next.pop_back()) try_cell(next.back().i);
         }
         if (found_.cell >= 0) found_.distance = distance_to(p_, feature_);
         return found_;
@@ -146,7 +145,7 @@ NearCell near_cell(const CellIndex& index, std::size_t place) {
     }
     for (std::size_t k = 0; k < corners; ++k) {
         cell.nodes[k] = node(places[k]);
-        cell.at[k] = index.nodes[static_cast<std::size_t>(places[k])].at;
+        cell.at[k] = index.nodes[places[k]].at;
     }
     return cell;
 }

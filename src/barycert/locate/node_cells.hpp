@@ -24,7 +24,7 @@ public:
         for (const Place c : place) {
             if (c < 0) continue;
             for (std::size_t i = 0; i < corners; ++i)
-                cells_[next[static_cast<std::size_t>(index.cells[static_cast<std::size_t>(c)].node[i])]++] = c;
+                cells_[next[static_cast<std::size_t>(index.cells[c].node[i])]++] = c;
         }
     }
 
@@ -35,28 +35,21 @@ public:
     }
     std::size_t bytes() const { return begin_.size() * sizeof(std::uint64_t) + cells_.size() * sizeof(Place); }
 
-    /// found(cell) for each cell that has the vertex, edge or face on which a point with these signs lies, by ascending
-    /// cell of the mesh, until it returns false. In a simplicial complex these are the cells that hold the point.
-    /// Precondition: the signs are those of a point in the closed cell.
-    template <class F>
-    void for_each_around(const CellIndex& index, Place cell, WeightSigns signs, F found) const {
-        const std::size_t corners = index.corners();
-        const CellRecord& record = index.cells[static_cast<std::size_t>(cell)];
+    /// The lowest cell of the mesh that has the vertex, edge or face on which a point with these signs lies. In a
+    /// simplicial complex it is the lowest that holds the point. Precondition: the signs are those of a point in the
+    /// closed cell, which is not degenerate.
+    Place lowest_around(const CellIndex& index, Place cell, WeightSigns signs) const {
+        const CellRecord& record = index.cells[cell];
         std::array<Place, 4> support;
         std::size_t count = 0;
-        for (std::size_t i = 0; i < corners; ++i) {
+        for (std::size_t i = 0; i < index.corners(); ++i) {
             if (signs.sign(static_cast<int>(i)) != Sign::zero) support[count++] = record.node[i];
         }
-        for (const Place candidate : of(support[0])) {
-            const auto& nodes = index.cells[static_cast<std::size_t>(candidate)].node;
-            bool all = true;
-            for (std::size_t i = 1; i < count; ++i) {
-                bool has = false;
-                for (std::size_t k = 0; k < corners; ++k) has |= nodes[k] == support[i];
-                all &= has;
-            }
-            if (all && !found(candidate)) return;
-        }
+        return *std::ranges::find_if(of(support[0]), [&](Place candidate) {
+            const auto& nodes = index.cells[candidate].node;
+            return std::all_of(support.begin() + 1, support.begin() + static_cast<std::ptrdiff_t>(count),
+                               [&](Place node) { return std::ranges::find(nodes, node) != nodes.end(); });
+        });
     }
 
 private:

@@ -139,21 +139,20 @@ public:
     }
 
     void add(std::size_t place) {
-        BinnedCell<d>& cell = cell_;
         for (std::size_t i = 0; i <= d; ++i) {
-            const auto& at = index_.nodes[static_cast<std::size_t>(index_.cells[place].node[i])].at;
+            const auto& at = index_.nodes[index_.cells[place].node[i]].at;
             for (std::size_t k = 0; k < d; ++k)
-                cell.corner[i][k] = index_.bins.quantizer().before_rounding(k, at[k]) * unit_[k];
+                cell_.corner[i][k] = index_.bins.quantizer().before_rounding(k, at[k]) * unit_[k];
         }
-        cell.set(bins_, with_facets_);
+        cell_.set(bins_, with_facets_);
         std::array<int, d> row{};
-        const int layers = d == 3 ? cell.count[d - 1] : 1;
+        const int layers = d == 3 ? cell_.count[d - 1] : 1;
         for (int layer = 0; layer < layers; ++layer) {
             if constexpr (d == 3) row[2] = layer;
-            for (row[1] = 0; row[1] < cell.count[1]; ++row[1])
-                cell.columns(row, [&](int first, int last) {
-                    set(row, static_cast<std::size_t>(first + cell.low[0]),
-                        static_cast<std::size_t>(last + cell.low[0]));
+            for (row[1] = 0; row[1] < cell_.count[1]; ++row[1])
+                cell_.columns(row, [&](int first, int last) {
+                    set(row, static_cast<std::size_t>(first + cell_.low[0]),
+                        static_cast<std::size_t>(last + cell_.low[0]));
                 });
         }
     }
@@ -199,7 +198,7 @@ void mark(const CellIndex& index, const std::array<int, 3>& bits, bool with_face
 template <std::size_t d>
 double share(const CellIndex& index, std::size_t place) {
     const auto coordinate = [&](std::size_t i, std::size_t k) {
-        const auto& at = index.nodes[static_cast<std::size_t>(index.cells[place].node[i])].at;
+        const auto& at = index.nodes[index.cells[place].node[i]].at;
         return index.bins.quantizer().before_rounding(k, at[k]) / static_cast<double>(Quantizer::max);
     };
     double edges[d][d];

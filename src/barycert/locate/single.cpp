@@ -20,7 +20,7 @@ template <Simplex s>
 Look look(const CellIndex& index, Place place, const double* p) {
     constexpr double many = 4;
     constexpr std::size_t d = space_dimension(s);
-    CellAtPoint<s> at(index, index.cells[static_cast<std::size_t>(place)], p);
+    CellAtPoint<s> at(index, index.cells[place], p);
     auto& n = at.weights.numerator;
     // A branch, as cells of a mesh are nearly all oriented alike: nothing waits for the denominator.
     if (at.weights.denominator < 0) [[unlikely]] {
@@ -76,9 +76,8 @@ From start_of(const LocatorData& data, const double* p, Mesh::Index hint) {
 
 /// Asks for what the next look may read, and for the number of the cell, while this one is looked at.
 void fetch_around(const CellIndex& index, Place cell) {
-    for (const Place next : index.cells[static_cast<std::size_t>(cell)].next)
-        __builtin_prefetch(&index.cells[static_cast<std::size_t>(std::max(next, 0))]);
-    __builtin_prefetch(&index.original[static_cast<std::size_t>(cell)]);
+    for (const Place next : index.cells[cell].next) __builtin_prefetch(&index.cells[std::max(next, 0)]);
+    __builtin_prefetch(&index.original[cell]);
 }
 
 /// If a hint turns out far, or does not lead there in some steps, the walk goes on from the start of the point's bin.
@@ -93,7 +92,7 @@ End walk(const CellIndex& index, const double* p, From from) {
         const Look at = look<s>(index, cell, p);
         if (at.inside) return {cell, true, false};
         if (!at.beyond) return {cell, false, false};
-        const Place next = index.cells[static_cast<std::size_t>(cell)].next[at.face];
+        const Place next = index.cells[cell].next[at.face];
         if (from.hint && (at.far || step == patience || next < 0)) {
             from = {index.start(index.bins.of(p)), false};
             cell = from.cell;
@@ -109,7 +108,7 @@ End walk(const CellIndex& index, const double* p, From from) {
 template <Simplex s>
 End walk_and_note(const LocatorData& data, const double* p, Mesh::Index hint) {
     const End end = walk<s>(data.index, p, start_of(data, p, hint));
-    last_end = {&data, data.index.original[static_cast<std::size_t>(end.cell)], end.cell};
+    last_end = {&data, data.index.original[end.cell], end.cell};
     return end;
 }
 
@@ -130,8 +129,7 @@ Result<Location> Locator::locate(const double* point, Mesh::Index hint) const {
         return found;
     }
     const auto location = [&](locate::Place owner, Feature feature) {
-        const Location found =
-            owner < 0 ? Location{} : Location{index.original[static_cast<std::size_t>(owner)], feature};
+        const Location found = owner < 0 ? Location{} : Location{index.original[owner], feature};
         return data.mapped ? data.settle(point, found) : found;
     };
     if (!index.box_holds(point)) return location(-1, Feature::outside);

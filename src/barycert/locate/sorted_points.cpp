@@ -1,5 +1,7 @@
 #include "barycert/locate/sorted_points.hpp"
 
+#include <numeric>
+
 namespace barycert::locate {
 
 bool SortedPoints::sort(const CellIndex& index, const Occupancy* occupancy, std::span<const double> points) {
@@ -22,8 +24,7 @@ bool SortedPoints::sort(const CellIndex& index, const Occupancy* occupancy, std:
         finite &= find_bins(index, occupancy, points.subspan(d_ * at, d_ * n), place_.data() + at);
         for (std::size_t i = at; i < at + n; ++i) ++next_[std::min(place_[i] >> shift, last)];
     }
-    std::uint32_t sum = 0;
-    for (std::uint32_t& n : next_) sum += std::exchange(n, sum);
+    std::exclusive_scan(next_.begin(), next_.end(), next_.begin(), 0U);
     size_ = next_[last];
     for (std::size_t i = 0; i < count_; ++i) {
         const std::uint32_t bin = place_[i], stream = std::min(bin >> shift, last), at = next_[stream];

@@ -62,8 +62,8 @@ HWY_INLINE core::Refined<Simplex::segment, D> refine_crossing(D tag, const Sides
         out.magnitude = out.magnitude + hn::Abs(w);
     }
     out.error = constant(24 * u * u) + constant(2.2) * (sides.error * inverse);
-    const auto range = hn::And(hn::Ge(sum.high, constant(0x1p-800)), hn::Le(sum.high, constant(0x1p900)));
-    out.valid = hn::And(range, hn::Le(sides.error, constant(0x1p-12) * sum.high));
+    out.valid =
+        hn::And(core::within(tag, sum.high, 0x1p-800, 0x1p900), hn::Le(sides.error, constant(0x1p-12) * sum.high));
     return out;
 }
 
@@ -72,16 +72,13 @@ template <class Get>
 HWY_INLINE std::size_t crossings(const EdgeBlock& edges, double* out, std::uint32_t* undecided, Get sides) {
     const auto stride = static_cast<std::size_t>(edges.components);
     return core::for_lanes(edges.count, undecided, [&](auto tag, std::size_t at) BARYCERT_LANE_LAMBDA {
-        using D = decltype(tag);
-        using V = hn::Vec<D>;
-        constexpr std::size_t width = hn::MaxLanes(D());
+        using V = hn::Vec<decltype(tag)>;
         const auto refined = refine_crossing(tag, sides(tag, at));
         auto certain = refined.valid;
-        HWY_ALIGN double buffer[width];
         for (std::size_t c = 0; c < stride; ++c) {
             const V f[2] = {hn::LoadU(tag, edges.values[2 * c] + at), hn::LoadU(tag, edges.values[2 * c + 1] + at)};
-            hn::Store(core::value<Simplex::segment>(tag, refined, f, certain), tag, buffer);
-            for (std::size_t l = 0; l < width; ++l) out[stride * (at + l) + c] = buffer[l];
+            const V value = core::value<Simplex::segment>(tag, refined, f, certain);
+            core::store_strided(tag, value, out + stride * at + c, stride);
         }
         return certain;
     });
@@ -92,8 +89,8 @@ std::size_t level_crossings(double value, const double* const* f, const EdgeBloc
     return crossings(edges, out, undecided, [&](auto tag, std::size_t at) BARYCERT_LANE_LAMBDA {
         using V = hn::Vec<decltype(tag)>;
         const V level = hn::Set(tag, value);
-        return Sides<V>{core::difference(hn::LoadU(tag, f[0] + at), level),
-                        core::difference(level, hn::LoadU(tag, f[1] + at)), hn::Zero(tag)};
+        return Sides<V>{core::two_difference(hn::LoadU(tag, f[0] + at), level),
+                        core::two_difference(level, hn::LoadU(tag, f[1] + at)), hn::Zero(tag)};
     });
 }
 
@@ -105,10 +102,8 @@ HWY_INLINE core::DoubleDouble<V> height(D tag, const Plane& plane, const EdgeBlo
     const V offset = hn::Set(tag, plane.offset);
     magnitude = hn::Abs(offset);
     for (std::size_t k = 0; k < 3; ++k) {
-        const auto product =
-            core::two_product(hn::Set(tag, plane.normal[k]), hn::LoadU(tag, edges.values[2 * k + end] + at));
-        term[k] = {product.high, product.low};
-        magnitude = magnitude + hn::Abs(product.high);
+        term[k] = core::two_product(hn::Set(tag, plane.normal[k]), hn::LoadU(tag, edges.values[2 * k + end] + at));
+        magnitude = magnitude + hn::Abs(term[k].high);
     }
     return (term[0] + term[1]) + (term[2] - core::DoubleDouble<V>{offset, hn::Zero(tag)});
 }

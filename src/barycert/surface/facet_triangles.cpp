@@ -14,6 +14,11 @@ namespace {
 
 using Node = std::size_t;  ///< of the facet, in the order of the sweep
 using Edge = std::pair<Node, Node>;
+using Place = std::array<double, 2>;  ///< in the projection
+
+int turn_of(const Place& a, const Place& b, const Place& c) {
+    return static_cast<int>(orient2d(a.data(), b.data(), c.data()));
+}
 
 struct EdgeHash {
     std::size_t operator()(const Edge& e) const { return (e.first << 32 | e.second) * 0x9E3779B97F4A7C15U; }
@@ -48,9 +53,8 @@ public:
             if (std::fabs(normal[k]) > std::fabs(normal[axis_])) axis_ = k;
         }
     }
-    void along(std::size_t axis) { axis_ = axis; }
-    std::array<double, 2> operator()(const double* p) const { return {p[(axis_ + 1) % 3], p[(axis_ + 2) % 3]}; }
-    std::array<double, 2> operator()(Mesh::Index n) const { return (*this)(&points_[3 * static_cast<std::size_t>(n)]); }
+    Place operator()(const double* p) const { return {p[(axis_ + 1) % 3], p[(axis_ + 2) % 3]}; }
+    Place operator()(Mesh::Index n) const { return (*this)(&points_[3 * static_cast<std::size_t>(n)]); }
 
 private:
     using Vector = base::Vector3<double>;
@@ -66,13 +70,11 @@ private:
 /// Triangles by their directed edges: edge (a, b) and what lies to its left.
 class Triangulation {
 public:
-    explicit Triangulation(std::vector<std::array<double, 2>> at) : at_(std::move(at)), out_(at_.size(), 0) { sweep(); }
+    explicit Triangulation(std::vector<Place> at) : at_(std::move(at)), out_(at_.size(), 0) { sweep(); }
 
     bool flat() const { return apex_.empty(); }
 
-    int turn(Node a, Node b, Node c) const {
-        return static_cast<int>(orient2d(at_[a].data(), at_[b].data(), at_[c].data()));
-    }
+    int turn(Node a, Node b, Node c) const { return turn_of(at_[a], at_[b], at_[c]); }
 
     /// Makes ab an edge. fault(kind, a, b, x, y) tells of a node x on it, or a segment xy that it crosses.
     template <class Fault>
@@ -93,7 +95,7 @@ public:
     }
 
     /// The triangles that cannot be reached from outside, or from a place in a hole, over no segment.
-    std::vector<std::array<Node, 3>> region(const std::vector<std::array<double, 2>>& holes) {
+    std::vector<std::array<Node, 3>> region(const std::vector<Place>& holes) {
         std::vector<Edge> open;  // edges of triangles that go
         for (const auto& entry : apex_) {
             const Edge edge = entry.first;
@@ -133,10 +135,10 @@ private:
         out_[a] = b, out_[b] = c, out_[c] = a;
     }
 
-    bool holds(const Edge& edge, Node apex, const std::array<double, 2>& p) const {
+    bool holds(const Edge& edge, Node apex, const Place& p) const {
         const std::array<Node, 3> t{edge.first, edge.second, apex};
         for (std::size_t k = 0; k < 3; ++k) {
-            if (orient2d(at_[t[k]].data(), at_[t[(k + 1) % 3]].data(), p.data()) == Sign::negative) return false;
+            if (turn_of(at_[t[k]], at_[t[(k + 1) % 3]], p) < 0) return false;
         }
         return true;
     }
@@ -224,7 +226,7 @@ private:
         }
     }
 
-    std::vector<std::array<double, 2>> at_;
+    std::vector<Place> at_;
     std::vector<Node> out_;  ///< of each node: the end of an edge from it
     std::unordered_map<Edge, Node, EdgeHash> apex_;
     std::unordered_set<Edge, EdgeHash> segments_;
@@ -233,12 +235,8 @@ private:
 /// The polygon turns clockwise: so it does at its lowest corner, unless it is no simple one.
 bool is_clockwise(const Projection& project, const std::vector<Mesh::Index>& ring) {
     const std::size_t n = ring.size();
-    std::size_t corner = 0;
-    for (std::size_t i = 1; i < n; ++i) {
-        if (project(ring[i]) < project(ring[corner])) corner = i;
-    }
-    const auto a = project(ring[(corner + n - 1) % n]), b = project(ring[corner]), c = project(ring[(corner + 1) % n]);
-    return orient2d(a.data(), b.data(), c.data()) == Sign::negative;
+    const auto corner = static_cast<std::size_t>(std::ranges::min_element(ring, {}, project) - ring.begin());
+    return turn_of(project(ring[(corner + n - 1) % n]), project(ring[corner]), project(ring[(corner + 1) % n])) < 0;
 }
 
 /// Cuts a quadrilateral at a diagonal; false if neither leaves triangles that turn one way.
@@ -247,10 +245,9 @@ bool cut_in_two(const Projection& project, const std::vector<Mesh::Index>& ring,
     for (const std::size_t first : {lowest, lowest + 1}) {
         const auto node = [&](std::size_t i) { return ring[(first + i) % 4]; };
         const auto turn = [&](std::size_t i) {
-            const auto a = project(node(0)), b = project(node(i)), c = project(node(i + 1));
-            return orient2d(a.data(), b.data(), c.data());
+            return turn_of(project(node(0)), project(node(i)), project(node(i + 1)));
         };
-        if (turn(1) == Sign::zero || turn(1) != turn(2)) continue;
+        if (turn(1) == 0 || turn(1) != turn(2)) continue;
         out.triangles.push_back({node(0), node(1), node(2)});
         out.triangles.push_back({node(0), node(2), node(3)});
         return true;
@@ -276,13 +273,13 @@ FacetTriangles triangles_of_facet(std::span<const double> points, std::span<cons
     if (plain && nodes.size() == 4 && polygons[0].size() == 4 && cut_in_two(project, polygons[0], out)) return out;
     if (nodes.size() < 3) return out;
 
-    std::ranges::sort(nodes, {}, [&](Mesh::Index n) { return project(n); });
+    std::ranges::sort(nodes, {}, project);
     for (std::size_t i = 1; i < nodes.size(); ++i) {
         if (project(nodes[i]) == project(nodes[i - 1]))
             out.faults.push_back({FacetFault::Kind::folded, {nodes[i - 1], nodes[i], -1, -1}});
     }
     if (!out.faults.empty()) return out;
-    std::vector<std::array<double, 2>> at;
+    std::vector<Place> at;
     for (const Mesh::Index n : nodes) at.push_back(project(n));
     Triangulation all(std::move(at));
     if (all.flat()) {
@@ -307,7 +304,7 @@ FacetTriangles triangles_of_facet(std::span<const double> points, std::span<cons
         }
     }
     if (crossing) return out;
-    std::vector<std::array<double, 2>> places;
+    std::vector<Place> places;
     for (std::size_t i = 0; i + 2 < holes.size(); i += 3) places.push_back(project(&holes[i]));
     const auto first = std::ranges::find_if(polygons, [](const auto& p) { return p.size() > 2; });
     const bool back = first != polygons.end() && is_clockwise(project, *first);

@@ -5,11 +5,11 @@
 namespace barycert::core::isoparametric {
 namespace {
 
-/// One component: the values of active nodes, below 1 in size, and the exponent that gives them back.
+/// One component: the values of active nodes, below 1 in size, and the exponent that gives them back. What underflows
+/// is below 2^-1074, for which value_of() has room.
 struct Component {
     std::array<double, max_nodes> values{};
     int exponent = 0;
-    bool finite = true;
     double off = 0;  ///< Evaluated::off
 };
 
@@ -38,7 +38,8 @@ std::optional<double> value_of(const Ball<Wide<bits>>& b, int exponent, double* 
     const auto end = [&](double by) {
         return rounded(Rational(ldexp(Wide<bits>(b.mid + Wide<bits>(by)), exponent)));
     };
-    const double low = end(-b.radius), high = end(b.radius);
+    const double radius = b.radius + 0x1p-1060;
+    const double low = end(-radius), high = end(radius);
     *middle = end(0);
     *off = high - low;
     return low == high ? std::optional(low) : std::nullopt;
@@ -79,21 +80,20 @@ Evaluated evaluate(const Reference& of, const Places& places, const double* poin
     bool any = false;
     for (std::size_t c = 0; c < components; ++c) {
         Component& own = all[c];
+        double most = 0;
+        bool finite = true;
         for (std::size_t i = 0; i < of.nodes; ++i) {
             if ((active >> i & 1U) == 0) continue;
             own.values[i] = values[components * i + c];
-            own.finite = own.finite && std::isfinite(own.values[i]);
+            finite = finite && std::isfinite(own.values[i]);
+            most = std::max(most, std::abs(own.values[i]));
         }
-        out[c] = own.finite ? 0 : std::numeric_limits<double>::quiet_NaN();
-        if (!own.finite) continue;
-        own.exponent = top_exponent(own.values);
-        for (double& x : own.values) {
-            const double down = std::ldexp(x, -own.exponent);
-            if (std::ldexp(down, own.exponent) != x) own.finite = false;  // 2^1000 apart: only exactly
-            x = down;
-        }
-        open[c] = std::ranges::any_of(own.values, [](double x) { return x != 0; }) ? 1 : 0;
-        any |= open[c] != 0;
+        out[c] = finite ? 0 : std::numeric_limits<double>::quiet_NaN();
+        if (!finite || most == 0) continue;
+        own.exponent = exponent_above(most);
+        for (double& x : own.values) x = std::ldexp(x, -own.exponent);
+        open[c] = 1;
+        any = true;
     }
     if (!any) return {Certainty::proved, Tier::double_double};
     Inverse inverse(of, places, point);

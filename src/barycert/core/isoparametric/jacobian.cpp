@@ -1,8 +1,8 @@
 #include <cmath>
 #include <optional>
 
-#include "barycert/core/isoparametric/ball.hpp"
-#include "barycert/core/isoparametric/inverse.hpp"
+#include "barycert/base/vectors.hpp"
+#include "barycert/core/isoparametric/newton.hpp"
 
 namespace barycert::core::isoparametric {
 namespace {
@@ -44,8 +44,7 @@ const Columns& columns_of(Element element) {
 /// q(node, axis) - q(other, axis) as N; nothing if a coefficient's sign is not known.
 template <class N, class Difference, class Sign>
 std::optional<JacobianSign> common_sign(const Columns& columns, bool flat, Difference difference, Sign sign_of) {
-    using Vector = std::array<N, 3>;
-    std::array<std::array<Vector, 4>, 3> vectors;
+    std::array<std::array<Vector<N>, 4>, 3> vectors;
     for (std::size_t c = 0; c < 3; ++c) {
         for (std::size_t i = 0; i < columns.edges[c].size(); ++i) {
             const Edge& e = columns.edges[c][i];
@@ -57,14 +56,12 @@ std::optional<JacobianSign> common_sign(const Columns& columns, bool flat, Diffe
     unsigned used = 0;
     for (std::size_t i = 0; i < columns.edges[0].size(); ++i) {
         for (std::size_t j = 0; j < columns.edges[1].size(); ++j) {
-            const Vector &a = vectors[0][i], &b = vectors[1][j];
-            const Vector cross{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+            const Vector<N> cross = base::cross(vectors[0][i], vectors[1][j]);
             for (std::size_t k = 0; k < columns.edges[2].size(); ++k) {
                 const Edge &e = columns.edges[0][i], &f = columns.edges[1][j], &g = columns.edges[2][k];
                 const auto at =
                     static_cast<std::size_t>((e.r + f.r + g.r) + 3 * (e.s + f.s + g.s) + 9 * (e.t + f.t + g.t));
-                const Vector& c = vectors[2][k];
-                const N own = cross[0] * c[0] + cross[1] * c[1] + cross[2] * c[2];
+                const N own = base::dot(cross, vectors[2][k]);
                 sums[at] = (used >> at & 1U) != 0 ? N(sums[at] + own) : own;
                 used |= 1U << at;
             }
@@ -88,20 +85,9 @@ std::optional<JacobianSign> common_sign(const Columns& columns, bool flat, Diffe
 const Reference* linear_reference(std::uint8_t type) {
     static const Reference quadrilateral{Element::quadrilateral, 1, 4}, hexahedron{Element::hexahedron, 1, 8},
         wedge{Element::wedge, 1, 6}, pyramid{Element::pyramid, 1, 5};
-    switch (type) {
-        case 8:
-        case 9:
-            return &quadrilateral;
-        case 11:
-        case 12:
-            return &hexahedron;
-        case 13:
-            return &wedge;
-        case 14:
-            return &pyramid;
-        default:
-            return nullptr;
-    }
+    if (type == 8 || type == 9) return &quadrilateral;
+    if (type == 11 || type == 12) return &hexahedron;
+    return type == 13 ? &wedge : type == 14 ? &pyramid : nullptr;
 }
 
 JacobianSign jacobian_sign(const Reference& of, const Places& places) {
@@ -110,13 +96,7 @@ JacobianSign jacobian_sign(const Reference& of, const Places& places) {
     const bool flat = of.dimension() == 2;
     // In double, u = 2^-53: edges up to m are off by u m, a determinant by (6 * 8 + 2) u m^3, a sum of eight of them by
     // 8 (50 + 7 * 6) u m^3 < 2^-43 m^3. Coordinates are divided so that nothing overflows.
-    int exponent = -1100;
-    for (std::size_t i = 0; i < of.nodes; ++i) {
-        for (std::size_t k = 0; k < of.dimension(); ++k) {
-            if (places.at[i][k] != 0) exponent = std::max(exponent, std::ilogb(places.at[i][k]) + 1);
-        }
-    }
-    const double scale = std::ldexp(1.0, std::clamp(-exponent - 1, -1022, 1022));
+    const double scale = scale_of(of, places);
     double most = 0;
     const auto near = [&](std::size_t to, std::size_t from, std::size_t k) {
         const double x = places.at[to][k] * scale - places.at[from][k] * scale;

@@ -32,6 +32,8 @@
 #include "barycert/core/foreach_target.hpp"
 // After the targets.
 #include "barycert/core/isoparametric/lanes.hpp"
+#include "barycert/core/lane_loop-inl.hpp"
+#include "barycert/core/lanes.hpp"
 #include "barycert/core/refinement-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -40,18 +42,10 @@ namespace barycert::core::isoparametric::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using core::HWY_NAMESPACE::DoubleDouble;
 using core::HWY_NAMESPACE::two_difference;
+using core::HWY_NAMESPACE::within;
 using D = hn::CappedTag<double, max_lanes>;
 using V = hn::Vec<D>;
 using Mask = hn::Mask<D>;
-
-HWY_INLINE V minus(D tag, V x, V y) {
-    static_cast<void>(tag);
-    return x - y;
-}
-HWY_INLINE DoubleDouble<V> minus(D tag, const DoubleDouble<V>& x, const DoubleDouble<V>& y) {
-    static_cast<void>(tag);
-    return x - y;
-}
 
 template <LaneElement element>
 struct Bounds {
@@ -61,28 +55,26 @@ struct Bounds {
     static constexpr double of_point = simplex ? 30.1 : 6.1;                           ///< of the value, in e
 };
 
-constexpr std::size_t edge_ends[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}};
-
 /// Values at x of the functions of the nodes.
 template <LaneElement element, class N>
-HWY_INLINE void functions(D tag, const N& one, const N (&x)[3], N (&n)[lane_nodes(element)]) {
+HWY_INLINE void functions(const N& one, const N (&x)[3], N (&n)[lane_nodes(element)]) {
     if constexpr (element == LaneElement::tetrahedron) {
-        const N l[4] = {minus(tag, minus(tag, minus(tag, one, x[0]), x[1]), x[2]), x[0], x[1], x[2]};
+        const N l[4] = {one - x[0] - x[1] - x[2], x[0], x[1], x[2]};
         N twice[4];
         for (int c = 0; c < 4; ++c) {
             twice[c] = l[c] + l[c];
-            n[c] = l[c] * minus(tag, twice[c], one);
+            n[c] = l[c] * (twice[c] - one);
         }
-        for (int e = 0; e < 6; ++e) n[4 + e] = twice[edge_ends[e][0]] * twice[edge_ends[e][1]];
+        for (int e = 0; e < 6; ++e) n[4 + e] = twice[core::quadratic_edges[e][0]] * twice[core::quadratic_edges[e][1]];
         return;
     } else {
-        const N r1 = minus(tag, one, x[0]), s1 = minus(tag, one, x[1]), t1 = minus(tag, one, x[2]);
+        const N r1 = one - x[0], s1 = one - x[1], t1 = one - x[2];
         N flat[4];
         if constexpr (element == LaneElement::wedge) {
-            flat[0] = minus(tag, r1, x[1]);
+            flat[0] = r1 - x[1];
             flat[1] = x[0];
             flat[2] = x[1];
-            flat[3] = minus(tag, one, one);
+            flat[3] = one - one;
         } else {
             flat[0] = r1 * s1;
             flat[1] = x[0] * s1;
@@ -105,7 +97,7 @@ HWY_INLINE Linear linearise_simplex(D tag, const V (&x)[3], const V (&q)[10][3])
     const V one = hn::Set(tag, 1), four = hn::Set(tag, 4);
     const V l[4] = {one - x[0] - x[1] - x[2], x[0], x[1], x[2]};
     V n[10], times_four[4];
-    functions<LaneElement::tetrahedron>(tag, one, x, n);
+    functions<LaneElement::tetrahedron>(one, x, n);
     for (int c = 0; c < 4; ++c) times_four[c] = four * l[c];
     Linear out;
     for (int k = 0; k < 3; ++k) {
@@ -113,7 +105,7 @@ HWY_INLINE Linear linearise_simplex(D tag, const V (&x)[3], const V (&q)[10][3])
         out.rest[k] = hn::Zero(tag);
         for (int c = 0; c < 4; ++c) by[c] = (times_four[c] - one) * q[c][k];
         for (int e = 0; e < 6; ++e) {
-            const auto [a, b] = edge_ends[e];
+            const auto [a, b] = core::quadratic_edges[e];
             by[a] = hn::MulAdd(times_four[b], q[4 + e][k], by[a]);
             by[b] = hn::MulAdd(times_four[a], q[4 + e][k], by[b]);
         }
@@ -175,10 +167,6 @@ HWY_INLINE V largest(const V (&v)[3]) {
     return hn::Max(hn::Max(hn::Abs(v[0]), hn::Abs(v[1])), hn::Abs(v[2]));
 }
 
-HWY_INLINE Mask in_range(D tag, V size) {
-    return hn::And(hn::Ge(size, hn::Set(tag, 0x1p-300)), hn::Le(size, hn::Set(tag, 0x1p300)));
-}
-
 template <LaneElement element>
 void evaluate_some(const LaneCases& cases, std::size_t first, LanesProved& proved) {
     using B = Bounds<element>;
@@ -202,7 +190,7 @@ void evaluate_some(const LaneCases& cases, std::size_t first, LanesProved& prove
             size = hn::Max(size, hn::Abs(q[i][k].high));
         }
     }
-    Mask certain = in_range(tag, size);
+    Mask certain = within(tag, size, 0x1p-300, 0x1p300);
     const auto linear = [&](const V(&at)[3]) HWY_ATTR {
         if constexpr (B::simplex) {
             return linearise_simplex(tag, at, high);
@@ -225,9 +213,7 @@ void evaluate_some(const LaneCases& cases, std::size_t first, LanesProved& prove
         if (hn::AllFalse(tag, hn::And(certain, hn::Gt(moved, hn::Set(tag, 0x1p-26))))) break;
     }
     invert(tag, at.jacobian, y);
-    const auto near = [&](V own) HWY_ATTR {
-        return hn::And(hn::Ge(own, hn::Set(tag, -0x1p-20)), hn::Le(own, hn::Set(tag, 1 + 0x1p-20)));
-    };
+    const auto near = [&](V own) HWY_ATTR { return within(tag, own, -0x1p-20, 1 + 0x1p-20); };
     for (const V& own : x) certain = hn::And(certain, near(own));
     if (element != LaneElement::hexahedron)
         certain = hn::And(certain, near(B::simplex ? x[0] + x[1] + x[2] : x[0] + x[1]));
@@ -235,7 +221,7 @@ void evaluate_some(const LaneCases& cases, std::size_t first, LanesProved& prove
     // X(x) - p, and d.
     const DoubleDouble<V> unit{one, zero};
     DoubleDouble<V> from[3] = {{x[0], zero}, {x[1], zero}, {x[2], zero}}, n[nodes], rest[3], d[3];
-    functions<element>(tag, unit, from, n);
+    functions<element>(unit, from, n);
     V step[3], rows_of_y[3], m = zero;
     for (int k = 0; k < 3; ++k) {
         rest[k] = n[0] * q[0][k];
@@ -274,7 +260,7 @@ void evaluate_some(const LaneCases& cases, std::size_t first, LanesProved& prove
         inside = hn::And(inside, hn::Gt(room, blur));
         certain = hn::And(certain, hn::Ge(room, hn::Neg(blur)));  // else another point that is taken there
     }
-    functions<element>(tag, unit, from, n);
+    functions<element>(unit, from, n);
     for (std::size_t c = 0; c < cases.components; ++c) {
         V most = zero;
         DoubleDouble<V> value{zero, zero};
@@ -284,18 +270,14 @@ void evaluate_some(const LaneCases& cases, std::size_t first, LanesProved& prove
             const DoubleDouble<V> term = n[i] * DoubleDouble<V>{f, zero};
             value = i == 0 ? term : value + term;
         }
-        const V bound = most * (hn::Set(tag, B::of_point) * error + hn::Set(tag, B::of_sum * u * u)) * more +
-                        hn::Set(tag, 0x1p-52) * hn::Abs(value.low);
-        certain = hn::And(certain, hn::Or(in_range(tag, most), hn::Eq(most, zero)));
-        const V rounded = core::HWY_NAMESPACE::rounded_if_certain<D>(value.high, value.low, bound, certain) + zero;
+        const V bound = most * (hn::Set(tag, B::of_point) * error + hn::Set(tag, B::of_sum * u * u));
+        certain = hn::And(certain, hn::Or(within(tag, most, 0x1p-300, 0x1p300), hn::Eq(most, zero)));
+        const V rounded = core::HWY_NAMESPACE::rounded_sum(tag, value.high, value.low, bound, certain) + zero;
         hn::StoreU(rounded, tag, cases.out + c * max_lanes + first);
     }
     const auto bits_of = [&](Mask mask) HWY_ATTR {
-        std::uint8_t bits[8] = {};
-        hn::StoreMaskBits(tag, mask, bits);
-        const std::uint32_t all = bits[0] | static_cast<std::uint32_t>(bits[1]) << 8;
         const std::size_t count = std::min(hn::Lanes(tag), cases.count - first);
-        return (all & ((std::uint32_t{1} << count) - 1)) << first;
+        return (core::HWY_NAMESPACE::mask_bits(tag, mask) & ((std::uint32_t{1} << count) - 1)) << first;
     };
     proved.inside |= bits_of(inside);
     proved.values |= bits_of(certain);

@@ -21,22 +21,34 @@ inline double rounded(const Rational& x) {
     return rounded_quotient(n, d, 0);
 }
 
-/// Exponent e so that all numbers are below 2^e.
-inline int top_exponent(std::span<const double> numbers) {
-    double most = 0;
-    for (const double x : numbers) most = std::max(most, std::abs(x));
+/// Exponent e so that x is below 2^e.
+inline int exponent_above(double x) {
     int exponent = 0;
-    std::frexp(most, &exponent);
+    std::frexp(x, &exponent);
     return exponent;
 }
 
-template <class T>
-T scaled_by(double x, int exponent) {
-    if constexpr (std::is_same_v<T, TwoDoubles>) {
-        return std::ldexp(x, exponent);
-    } else {
-        return ldexp(T(x), exponent);
+/// The largest coordinate of places, without its sign.
+inline double largest(const Reference& of, const Places& places) {
+    double most = 0;
+    for (std::size_t i = 0; i < of.nodes; ++i) {
+        for (std::size_t k = 0; k < of.dimension(); ++k) {
+            most = std::max(most, std::abs(places.at[i][k]));
+            if (places.other[i] != nullptr) most = std::max(most, std::abs(places.other[i][k]));
+        }
     }
+    return most;
+}
+
+/// A power of two by which coordinates are below 1, but for the largest doubles.
+inline double scale_of(const Reference& of, const Places& places) {
+    return std::ldexp(1.0, std::clamp(-exponent_above(largest(of, places)), -1020, 1020));
+}
+
+/// Where a node is.
+inline Rational exact_place(const Places& places, std::size_t node, std::size_t axis) {
+    const Rational x(places.at[node][axis]);
+    return places.other[node] == nullptr ? x : Rational((x + Rational(places.other[node][axis])) / 2);
 }
 
 /// 1 / n.
@@ -89,17 +101,10 @@ class Inverse {
 public:
     Inverse(const Reference& reference, const Places& places, const double* point)
         : of_(reference), d_(reference.dimension()) {
-        std::array<double, 6 * max_nodes + 3> numbers{};
-        std::size_t count = 0;
-        for (std::size_t i = 0; i < of_.nodes; ++i) {
-            for (std::size_t k = 0; k < d_; ++k) {
-                numbers[count++] = places.at[i][k];
-                if (places.other[i] != nullptr) numbers[count++] = places.other[i][k];
-            }
-        }
-        for (std::size_t k = 0; k < d_; ++k) numbers[count++] = point[k];
-        const int down = top_exponent({numbers.data(), count}) + 1;  // differences do not overflow
-        double most = 0;
+        double most = largest(of_, places);
+        for (std::size_t k = 0; k < d_; ++k) most = std::max(most, std::abs(point[k]));
+        const int down = exponent_above(most) + 1;  // differences do not overflow
+        most = 0;
         for (std::size_t i = 0; i < of_.nodes; ++i) {
             for (std::size_t k = 0; k < d_; ++k) {
                 const auto from_point = [&](const double* at) {
@@ -115,8 +120,7 @@ public:
                 most = std::max(most, std::abs(q.high));
             }
         }
-        int up = 0;
-        std::frexp(most, &up);
+        const int up = exponent_above(most);
         shift_ = -down - up;
         for (std::size_t i = 0; i < of_.nodes; ++i) {
             for (std::size_t k = 0; k < d_; ++k)
@@ -311,10 +315,7 @@ private:
         return most;
     }
 
-    Rational at(std::size_t node, std::size_t axis) const {
-        const Rational x = Rational(places_.at[node][axis]);
-        return places_.other[node] == nullptr ? x : Rational((x + Rational(places_.other[node][axis])) / 2);
-    }
+    Rational at(std::size_t node, std::size_t axis) const { return exact_place(places_, node, axis); }
 
     /// Where the map is affine: opposite edges are the same vectors. Sets x.
     bool affine(Vector<Rational>& x) const {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <tuple>
 
+#include "barycert/base/vectors.hpp"
 #include "barycert/core/isoparametric/newton.hpp"
 
 namespace barycert::core::isoparametric {
@@ -89,11 +90,8 @@ struct Simplex {
         std::array<std::size_t, 3> by;
     };
     std::vector<Slope> slopes;
-    /// Multi-indices of each degree below, and for each which of the next degree have one more of a corner.
-    struct Level {
-        std::vector<Index> indices;
-        std::vector<std::array<std::uint8_t, 4>> raised;
-    };
+    /// Of each multi-index of a degree: which of the next degree have one more of a corner.
+    using Level = std::vector<std::array<std::uint8_t, 4>>;
     std::vector<Level> levels;  ///< of degree order - 1, order - 2, ...
 };
 
@@ -122,6 +120,7 @@ const std::array<Simplex, 6>& simplices() {
             std::vector<Index> above = s.reference.indices;
             for (int degree = s.reference.order - 1; degree >= 0; --degree) {
                 Simplex::Level level;
+                std::vector<Index> indices;
                 for (const Index& index : above) {
                     Index lower = index;
                     if (lower[0] == 0) continue;
@@ -132,10 +131,10 @@ const std::array<Simplex, 6>& simplices() {
                         ++own[c];
                         raised[c] = static_cast<std::uint8_t>(std::ranges::find(above, own) - above.begin());
                     }
-                    level.indices.push_back(lower);
-                    level.raised.push_back(raised);
+                    indices.push_back(lower);
+                    level.push_back(raised);
                 }
-                above = level.indices;
+                above = std::move(indices);
                 s.levels.push_back(std::move(level));
             }
         }
@@ -180,8 +179,7 @@ std::optional<JacobianSign> common_sign(const Simplex& s, const Place& place, co
     std::map<Index, N> sums;
     for (std::size_t a = 0; a < m; ++a) {
         for (std::size_t b = 0; b < m; ++b) {
-            const Vector<N>&x = v[0][a], &y = v[1][b];
-            const Vector<N> cross{x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]};
+            const Vector<N> cross = base::cross(v[0][a], v[1][b]);
             for (std::size_t c = 0; c < v[2].size(); ++c) {
                 const Index &i = s.slopes[a].index, &j = s.slopes[b].index;
                 Index sum = i;
@@ -192,7 +190,7 @@ std::optional<JacobianSign> common_sign(const Simplex& s, const Place& place, co
                     weight *= multinomial(l);
                     for (std::size_t k = 0; k < 4; ++k) sum[k] = static_cast<std::uint8_t>(sum[k] + l[k]);
                 }
-                const N own = N(weight) * (cross[0] * v[2][c][0] + cross[1] * v[2][c][1] + cross[2] * v[2][c][2]);
+                const N own = N(weight) * base::dot(cross, v[2][c]);
                 const auto [at, first] = sums.try_emplace(sum, own);
                 if (!first) at->second = at->second + own;
             }
@@ -212,20 +210,6 @@ double middle(const Places& places, std::size_t node, std::size_t k, double scal
     return places.other[node] == nullptr ? x : x / 2 + places.other[node][k] * scale / 2;
 }
 
-/// Numbers up to 1; a power of two.
-double scale_of(const Reference& of, const Places& places) {
-    double most = 0;
-    for (std::size_t i = 0; i < of.nodes; ++i) {
-        for (std::size_t k = 0; k < of.dimension(); ++k) {
-            most = std::max(most, std::abs(places.at[i][k]));
-            if (places.other[i] != nullptr) most = std::max(most, std::abs(places.other[i][k]));
-        }
-    }
-    int exponent = 0;
-    std::frexp(most, &exponent);
-    return std::ldexp(1.0, std::clamp(-exponent, -1020, 1020));
-}
-
 /// Control points in double, each off by at most 2^-40 of the largest coordinate: sums of at most 35 products with
 /// factors below 100 times the denominator.
 std::vector<Vector<double>> rounded_control_points(const Simplex& s, const Places& places, double scale) {
@@ -241,14 +225,15 @@ constexpr double control_error = 0x1p-40;
 /// Whether no point of the cell is at zero, of control points from there. A box of the reference cell may be left out.
 class Search {
 public:
-    using Corners = std::array<Vector<double>, 4>;  ///< of a part of the reference cell
+    using Coordinates = std::array<double, 4>;   ///< barycentric ones in the reference cell
+    using Corners = std::array<Coordinates, 4>;  ///< of a part of it
 
     explicit Search(const Simplex& s) : s_(s) {}
 
     /// Leaves out a simplex like the reference cell around `x`, where zero is taken, in which it is taken nowhere else:
     /// with Y about the inverse of the Jacobian there, |1 - Y X'| < 1/2 in all of it. The largest that is found.
     void leave_out_around(const std::vector<Vector<double>>& points, const Vector<double>& x, const Matrix& y) {
-        middle_ = x;
+        middle_ = {1 - x[0] - x[1] - x[2], x[0], x[1], x[2]};
         for (radius_ = 2; radius_ > 0x1p-20; radius_ /= 2) {
             if (contracts(restricted(points, around()), y)) return;
         }
@@ -266,13 +251,13 @@ public:
         for (std::size_t i = 0; i < corners; ++i) {
             for (std::size_t j = 0; j < i; ++j) {
                 double square = 0;
-                for (std::size_t k = 0; k < 3; ++k) square += (at[i][k] - at[j][k]) * (at[i][k] - at[j][k]);
+                for (std::size_t k = 1; k < 4; ++k) square += (at[i][k] - at[j][k]) * (at[i][k] - at[j][k]);
                 if (square > longest) std::tie(longest, a, b) = std::tuple(square, i, j);
             }
         }
         for (const std::size_t gone : {a, b}) {
             Corners half = at;
-            for (std::size_t k = 0; k < 3; ++k) half[gone][k] = (at[a][k] + at[b][k]) / 2;
+            for (std::size_t k = 0; k < 4; ++k) half[gone][k] = (at[a][k] + at[b][k]) / 2;
             if (!excludes(points, half, depth - 1)) return false;
         }
         return true;
@@ -306,37 +291,26 @@ public:
             const auto& p = points[(c + 1) % corners];
             const auto& q = points[(c + 2) % corners];
             const auto& r = points[(c + 3) % corners];
-            Vector<double> n{};
-            if (d == 2) {
-                n = {q[1] - p[1], p[0] - q[0], 0};
-            } else {
-                const Vector<double> u{q[0] - p[0], q[1] - p[1], q[2] - p[2]}, v{r[0] - p[0], r[1] - p[1], r[2] - p[2]};
-                n = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-            }
+            const auto n = d == 2 ? Vector<double>{q[1] - p[1], p[0] - q[0], 0}
+                                  : base::cross(base::minus(q, p), base::minus(r, p));
             if (beyond(n)) return true;
         }
         return false;
     }
 
 private:
-    using Coordinates = std::array<double, 4>;  ///< barycentric ones in the reference cell
-
-    Coordinates coordinates(const Vector<double>& at) const { return {1 - at[0] - at[1] - at[2], at[0], at[1], at[2]}; }
     bool left_out(const Corners& at) const {
         const std::size_t corners = s_.reference.dimension() + 1;
-        const Coordinates here = coordinates(middle_);
         for (std::size_t i = 0; i < corners; ++i) {
-            const Coordinates own = coordinates(at[i]);
             for (std::size_t c = 0; c < corners; ++c) {
-                if (!(own[c] - here[c] >= -0.999 * radius_ / static_cast<double>(corners))) return false;
+                if (!(at[i][c] - middle_[c] >= -0.999 * radius_ / static_cast<double>(corners))) return false;
             }
         }
         return radius_ > 0;
     }
 
     /// Control points over the simplex with those corners, by de Casteljau's algorithm: at one of them in each step.
-    std::vector<Vector<double>> restricted(const std::vector<Vector<double>>& points,
-                                           const std::array<Coordinates, 4>& at) const {
+    std::vector<Vector<double>> restricted(const std::vector<Vector<double>>& points, const Corners& at) const {
         const std::size_t corners = s_.reference.dimension() + 1;
         std::vector<Vector<double>> all, level, next;
         for (const Index& of : s_.reference.indices) {
@@ -344,7 +318,7 @@ private:
             std::size_t degree = 0;
             for (std::size_t corner = 0; corner < corners; ++corner) {
                 for (int k = 0; k < of[corner]; ++k, ++degree) {
-                    const auto& raised = s_.levels[degree].raised;
+                    const Simplex::Level& raised = s_.levels[degree];
                     next.assign(raised.size(), {});
                     for (std::size_t i = 0; i < raised.size(); ++i) {
                         for (std::size_t c = 0; c < corners; ++c) {
@@ -358,17 +332,12 @@ private:
         }
         return all;
     }
-    std::vector<Vector<double>> restricted(const std::vector<Vector<double>>& points, const Corners& at) const {
-        std::array<Coordinates, 4> own{};
-        for (std::size_t c = 0; c < 4; ++c) own[c] = coordinates(at[c]);
-        return restricted(points, own);
-    }
     /// Those of what may be left out.
-    std::array<Coordinates, 4> around() const {
+    Corners around() const {
         const std::size_t corners = s_.reference.dimension() + 1;
-        std::array<Coordinates, 4> at{};
+        Corners at{};
         for (std::size_t corner = 0; corner < corners; ++corner) {
-            at[corner] = coordinates(middle_);
+            at[corner] = middle_;
             for (std::size_t c = 0; c < corners; ++c)
                 at[corner][c] += radius_ * ((c == corner ? 1 : 0) - 1 / static_cast<double>(corners));
         }
@@ -394,7 +363,7 @@ private:
     }
 
     const Simplex& s_;
-    Vector<double> middle_{};
+    Coordinates middle_{};
     double radius_ = 0;
 };
 
@@ -418,10 +387,7 @@ JacobianSign simplex_jacobian_sign(const Reference& of, const Places& places) {
     };
     if (const auto sign = common_sign<Ball<double>>(s, near, &Ball<double>::sign)) return *sign;
     if (of.order > 2) return JacobianSign::unknown;  // 1000 determinants and more in rational numbers
-    const auto exact = [&](std::size_t node, std::size_t k) {
-        const Rational x(places.at[node][k]);
-        return places.other[node] == nullptr ? x : Rational((x + Rational(places.other[node][k])) / 2);
-    };
+    const auto exact = [&](std::size_t node, std::size_t k) { return exact_place(places, node, k); };
     return *common_sign<Rational>(s, exact, [](const Rational& x) { return std::optional(x.sign()); });
 }
 
@@ -505,7 +471,7 @@ InSimplex locate_in_simplex(const Reference& of, const Places& places, const dou
         if (found && found->inside) return *found;
     }
     // Not where Newton's method went: nowhere?
-    constexpr Search::Corners corners_at{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+    constexpr Search::Corners corners_at{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
     if (beside) {
         const double by = of.scale * std::ldexp(1 / scale, inverse.shift());  // to the scale of `points`
         Matrix y = inverse.inverse();

@@ -5,6 +5,7 @@
 #include <bit>
 
 #include "barycert/base/arena.hpp"
+#include "barycert/base/finite.hpp"
 #include "barycert/mesh/adjacency.hpp"
 #include "barycert/mesh/mid_edges.hpp"
 #include "barycert/mesh/pulling.hpp"
@@ -103,11 +104,10 @@ iso::InSimplex MappedCells::in_curved(std::size_t whole, const double* point) co
     const iso::Reference& reference = *maps_.reference(whole);
     for (std::size_t i = 0; i < nodes.count; ++i) {
         if (!std::equal(point, point + mesh_.dimension, at(nodes.at[i]))) continue;
-        const bool kept = maps_.places(whole).other[i] == nullptr;  // else it is off its straight edge
-        for (unsigned c = 0, zeros = 0; kept && c <= static_cast<unsigned>(mesh_.dimension); ++c) {
-            zeros |= reference.indices[i][c] == 0 ? 1U << c : 0U;
-            if (c == static_cast<unsigned>(mesh_.dimension)) return {.inside = true, .zeros = zeros, .proved = true};
-        }
+        if (maps_.places(whole).other[i] != nullptr) continue;  // it is off its straight edge
+        iso::InSimplex in{.inside = true, .proved = true};
+        for (std::size_t c = 0; c < mesh_.corners(); ++c) in.zeros |= reference.indices[i][c] == 0 ? 1U << c : 0U;
+        return in;
     }
     unsigned flat = 0;
     std::array<int, 4> beyond{};
@@ -227,21 +227,16 @@ iso::Evaluated MappedCells::evaluate(Mesh::Index cell, Feature feature, const do
                                      const std::vector<const Field*>& fields, Scratch& scratch, double* out) const {
     const mesh::CellMaps::Nodes nodes = maps_.nodes(whole(cell));
     const auto d = static_cast<std::size_t>(mesh_.dimension);
-    std::size_t components = 0, first = 0, at_node = nodes.count;
-    for (const Field* const field : fields) components += static_cast<std::size_t>(field->components);
-    scratch.resize(nodes.count * components);
-    bool finite = true;
-    for (const Field* const field : fields) {
-        const auto width = static_cast<std::size_t>(field->components);
-        for (std::size_t i = 0; i < nodes.count; ++i) {
-            for (std::size_t c = 0; c < width; ++c) {
-                const double x = field->data[static_cast<std::size_t>(nodes.at[i]) * width + c];
-                finite = finite && std::isfinite(x);
-                scratch[i * components + first + c] = x;
-            }
+    std::size_t at_node = nodes.count;
+    scratch.clear();
+    for (const Mesh::Index node : nodes.all()) {
+        for (const Field* const field : fields) {
+            const auto width = static_cast<std::size_t>(field->components);
+            const double* const from = field->data.data() + static_cast<std::size_t>(node) * width;
+            scratch.insert(scratch.end(), from, from + width);
         }
-        first += width;
     }
+    const std::size_t components = scratch.size() / nodes.count;
     const iso::Reference* const reference = maps_.reference(whole(cell));
     const bool may_be_node = feature == Feature::vertex || reference == nullptr || reference->is_simplex();
     for (std::size_t i = 0; may_be_node && i < nodes.count; ++i) {
@@ -254,7 +249,7 @@ iso::Evaluated MappedCells::evaluate(Mesh::Index cell, Feature feature, const do
         }
         return {iso::Certainty::proved, Tier::filter};
     }
-    const std::uint64_t active = finite ? ~std::uint64_t{0} : active_nodes(whole(cell), point);
+    const std::uint64_t active = base::all_finite(scratch) ? ~std::uint64_t{0} : active_nodes(whole(cell), point);
     return iso::evaluate(*reference, maps_.places(whole(cell)), point, active, scratch.data(), components, out);
 }
 
@@ -334,9 +329,7 @@ bool MappedCells::add_tetrahedron(std::size_t own, const PointRecord& point, con
     constexpr std::size_t count = 10;
     const iso::Reference& reference = *maps_.reference(own);
     if (reference.element != iso::Element::tetrahedron || reference.nodes != count) return false;
-    std::array<Mesh::Index, count> nodes{};
-    std::copy_n(has_shapes() ? shape_nodes(own) : &mesh_.cells[4 * own], has_shapes() ? 10 : 4, nodes.begin());
-    if (!has_shapes()) std::copy_n(&mesh_.mid_nodes[6 * own], 6, nodes.begin() + 4);
+    const auto nodes = maps_.nodes(own).at;
     for (std::size_t i = 0; i < count; ++i) {
         const double *place = this->at(nodes[i]), *other = place;
         if (std::equal(place, place + 3, point.at.begin())) return false;

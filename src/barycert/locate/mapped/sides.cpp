@@ -3,7 +3,9 @@
 #include <bit>
 
 #include "barycert/base/arena.hpp"
+#include "barycert/base/vectors.hpp"
 #include "barycert/core/isoparametric/ball.hpp"
+#include "barycert/index/facet_contact.hpp"
 #include "barycert/locate/mapped/mapped_cells.hpp"
 #include "barycert/mesh/pulling.hpp"
 
@@ -35,9 +37,7 @@ Sign sign_of_saddle(const std::array<const double*, 4>& n, const double* p) {
         for (std::size_t i = 0; i < 3; ++i) {
             for (std::size_t k = 0; k < 3; ++k) e[i][k] = N(at[i + 1][k]) - N(at[0][k]);
         }
-        return one *
-               (e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) - e[0][1] * (e[1][0] * e[2][2] - e[1][2] * e[2][0]) +
-                e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]));
+        return one * base::dot(e[0], base::cross(e[1], e[2]));
     };
     using Number = iso::Ball<double>;
     const Number one(1.0);
@@ -49,10 +49,7 @@ Sign sign_of_saddle(const std::array<const double*, 4>& n, const double* p) {
 
 InSide look(const std::array<const double*, 4>& n, const double* p) {
     InSide out;
-    for (std::size_t k = 0; k < 3; ++k) {
-        const auto [low, high] = std::minmax({n[0][k], n[1][k], n[2][k], n[3][k]});
-        if (p[k] < low || p[k] > high) return out;
-    }
+    if (index::outcode(3, index::box_of(3, n.data(), 4), p) != 0) return out;
     const Sign whole = orient3d(n[0], n[1], n[2], n[3]);
     for (std::size_t i = 0; i < 4; ++i) {
         const Sign own = side_of_plane(n, i, p) * whole;
@@ -99,11 +96,9 @@ void MappedCells::find_sides() {
     std::vector<index::Box> boxes(warped_.size());
     base::parallel_for_each(boxes.size(), 1024, [&](std::size_t i) {
         std::array<const double*, 8> corners{};
-        const auto shape = static_cast<std::size_t>(warped_[i].whole);
-        const auto count = static_cast<std::size_t>(mesh_.shapes.ends[shape]) -
-                           static_cast<std::size_t>(shape_nodes(shape) - mesh_.shapes.nodes.data());
-        for (std::size_t c = 0; c < count; ++c) corners[c] = at(shape_nodes(shape)[c]);
-        boxes[i] = index::box_of(3, corners.data(), static_cast<int>(count));
+        const mesh::CellMaps::Nodes nodes = maps_.nodes(static_cast<std::size_t>(warped_[i].whole));
+        for (std::size_t c = 0; c < nodes.count; ++c) corners[c] = at(nodes.at[c]);
+        boxes[i] = index::box_of(3, corners.data(), static_cast<int>(nodes.count));
     });
     tree_ = std::make_unique<index::BoxTree>(std::move(boxes));
 }
@@ -160,12 +155,7 @@ std::uint64_t MappedCells::active_nodes(std::size_t shape, const double* point) 
             own |= std::uint64_t{1} << place;
         }
         const auto in_triangle = [&](std::size_t j, std::size_t k) {
-            if (orient3d(n[0], n[j], n[k], point) != Sign::zero) return false;
-            std::array<double, 9> vertices{};
-            std::copy_n(n[0], 3, vertices.begin());
-            std::copy_n(n[j], 3, vertices.begin() + 3);
-            std::copy_n(n[k], 3, vertices.begin() + 6);
-            return weight_signs(Simplex::triangle3d, vertices.data(), point).contains();
+            return index::face_around(3, {{0, 1, 2}, {n[0], n[j], n[k]}}, point)[0] >= 0;
         };
         bool on = false;
         if (flat) {

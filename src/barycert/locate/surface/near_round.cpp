@@ -31,11 +31,14 @@
 #include "barycert/core/foreach_target.hpp"
 
 #include "barycert/core/error_free-inl.hpp"
+#include "barycert/core/lane_loop-inl.hpp"
+#include "barycert/core/numerators-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace barycert::locate::HWY_NAMESPACE {
 
 using namespace core::HWY_NAMESPACE;
+namespace formulas = core::HWY_NAMESPACE;  // nearest_lanes.cpp has a `dot` of its own
 using Tag = hn::CappedTag<double, 8>;
 using Lanes = hn::Vec<Tag>;
 using Mask = hn::Mask<Tag>;
@@ -66,10 +69,6 @@ HWY_INLINE Lanes set(double x) {
     return hn::Set(Tag(), x);
 }
 
-HWY_INLINE Lanes plain_dot(const Lanes (&x)[3], const Lanes (&y)[3]) {
-    return x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
-}
-
 void classify(const NearPair* pairs, std::size_t count, std::uint8_t* masks) {
     constexpr double u = 0x1p-53;
     const Lanes zero = set(0);
@@ -87,8 +86,8 @@ void classify(const NearPair* pairs, std::size_t count, std::uint8_t* masks) {
                 big_w = big_w + hn::Abs(w[k]);
                 big_e = big_e + hn::Max(hn::Abs(e[k]), hn::Abs(f[k]));
             }
-            const Lanes we = plain_dot(w, e), wf = plain_dot(w, f), ee = plain_dot(e, e), ef = plain_dot(e, f),
-                        ff = plain_dot(f, f);
+            const Lanes we = formulas::dot(w, e), wf = formulas::dot(w, f), ee = formulas::dot(e, e),
+                        ef = formulas::dot(e, f), ff = formulas::dot(f, f);
             const Lanes of_w = set(16 * u) * big_w * big_e, of_e = set(16 * u) * big_e * big_e;
             const auto vertex = hn::And(hn::Lt(we, hn::Neg(of_w)), hn::Lt(wf, hn::Neg(of_w)));
             const Lanes n_b = we * ff - wf * ef, n_c = wf * ee - we * ef, det = ee * ff - ef * ef;
@@ -110,14 +109,6 @@ void classify(const NearPair* pairs, std::size_t count, std::uint8_t* masks) {
         hn::Store(found, Tag(), out);
         for (std::size_t l = 0; l < here; ++l) masks[first + l] = static_cast<std::uint8_t>(out[l]);
     }
-}
-
-HWY_INLINE Wide wide_dot(const Wide (&x)[3], const Wide (&y)[3]) {
-    return x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
-}
-
-HWY_INLINE void wide_cross(const Wide (&x)[3], const Wide (&y)[3], Wide (&out)[3]) {
-    for (int k = 0; k < 3; ++k) out[k] = x[(k + 1) % 3] * y[(k + 2) % 3] - x[(k + 2) % 3] * y[(k + 1) % 3];
 }
 
 /// A number and a bound of its error.
@@ -150,9 +141,9 @@ HWY_INLINE void round_lanes(const Pairs& at, Lanes (&out)[7], Mask& certain) {
     Wide w[3], e[3], f[3];
     Lanes big_w = zero, big_e = zero;
     for (int k = 0; k < 3; ++k) {
-        w[k] = difference(at.p[k], at.at[0][k]);
-        e[k] = difference(corners > 1 ? at.at[1][k] : at.at[0][k], at.at[0][k]);
-        f[k] = difference(corners > 2 ? at.at[2][k] : at.at[0][k], at.at[0][k]);
+        w[k] = two_difference(at.p[k], at.at[0][k]);
+        e[k] = two_difference(corners > 1 ? at.at[1][k] : at.at[0][k], at.at[0][k]);
+        f[k] = two_difference(corners > 2 ? at.at[2][k] : at.at[0][k], at.at[0][k]);
         big_w = big_w + hn::Abs(w[k].high);
         big_e = big_e + hn::Max(hn::Abs(e[k].high), hn::Abs(f[k].high));
     }
@@ -162,17 +153,17 @@ HWY_INLINE void round_lanes(const Pairs& at, Lanes (&out)[7], Mask& certain) {
     certain = hn::Eq(zero, zero);
     if constexpr (corners == 2) {
         const Lanes factor = set(18 * uu) * big_e;
-        s = quotient(wide_dot(w, e), factor * big_w, wide_dot(e, e), factor * big_e);
+        s = quotient(formulas::dot(w, e), factor * big_w, formulas::dot(e, e), factor * big_e);
     } else if constexpr (corners == 3) {
         Wide n[3], wf[3], ew[3];
-        wide_cross(e, f, n);
-        wide_cross(w, f, wf);
-        wide_cross(e, w, ew);
-        const Wide d = wide_dot(n, n);
+        formulas::cross(e, f, n);
+        formulas::cross(w, f, wf);
+        formulas::cross(e, w, ew);
+        const Wide d = formulas::dot(n, n);
         const Lanes factor = set(530 * uu) * big_e * big_e * big_e;
         certain = hn::Gt(d.high * set(0x1p-10), factor * big_e);
-        s = quotient(wide_dot(wf, n), factor * big_w, d, factor * big_e);
-        t = quotient(wide_dot(ew, n), factor * big_w, d, factor * big_e);
+        s = quotient(formulas::dot(wf, n), factor * big_w, d, factor * big_e);
+        t = quotient(formulas::dot(ew, n), factor * big_w, d, factor * big_e);
     }
     if constexpr (corners > 1) certain = hn::And(certain, hn::Ge(big_e, set(0x1p-100)));
     Wide q{zero, zero};
@@ -215,13 +206,12 @@ void round_all(const NearPair* pairs, std::size_t count, int corners, NearRounde
                        : round_lanes<3>(at, out, certain);
         HWY_ALIGN double rows[7][width];
         for (int i = 0; i < 7; ++i) hn::Store(out[i], Tag(), rows[i]);
-        std::uint8_t bits[8] = {};
-        hn::StoreMaskBits(Tag(), certain, bits);
+        const std::uint32_t bits = mask_bits(Tag(), certain);
         for (std::size_t l = 0; l < here; ++l) {
             NearRounded& one = to[first + l];
             one.distance = rows[0][l];
             for (std::size_t k = 0; k < 3; ++k) one.at[k] = rows[1 + k][l], one.weights[k] = rows[4 + k][l];
-            one.certain = (bits[0] >> l & 1) != 0;
+            one.certain = (bits >> l & 1) != 0;
         }
     }
 }

@@ -24,6 +24,8 @@
 #define HWY_TARGET_INCLUDE "barycert/locate/surface/nearest_lanes.cpp"
 #include "barycert/core/foreach_target.hpp"
 
+#include "barycert/core/lane_loop-inl.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace barycert::locate::HWY_NAMESPACE {
 
@@ -45,9 +47,8 @@ HWY_INLINE unsigned near_boxes(const NearGroups::Boxes& boxes, const double (&p)
             q = hn::MulAdd(away, away, q);
         }
         hn::Store(q, tag, key + l);
-        std::uint8_t some[8] = {};
-        hn::StoreMaskBits(tag, hn::Le(q * hn::Set(tag, 1 - 0x1p-50), hn::Set(tag, best)), some);
-        bits |= static_cast<unsigned>(some[0]) << l;
+        const auto near = hn::Le(q * hn::Set(tag, 1 - 0x1p-50), hn::Set(tag, best));
+        bits |= core::HWY_NAMESPACE::mask_bits(tag, near) << l;
     }
     return bits;
 }

@@ -236,6 +236,8 @@ void SurfaceData::nearest(std::span<const double* const> points, double limit,
 }
 
 bool SurfaceData::nearest_on(Mesh::Index triangle, const double* p, SurfaceNearest& to) const {
+    to = none();
+    if (triangle < 0) return true;
     NearCell cell{3, true};
     const Mesh::Index* const corners = &surface->cells[3 * static_cast<std::size_t>(triangle)];
     std::copy_n(corners, 3, cell.nodes.begin());

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "barycert/base/disjoint_sets.hpp"
+#include "barycert/base/vectors.hpp"
 #include "barycert/locate/surface/surface_data.hpp"
 
 namespace barycert::locate {
@@ -39,25 +40,22 @@ void SideMap::touch(const SurfaceData& surface) {
     base::parallel_for_each(all.size(), 512, [&](std::size_t t) {
         const auto& at = all.facets[t].at;
         std::int32_t low[3], high[3];
-        double normal[3], half[3], base[3];
+        double half[3];
         for (std::size_t k = 0; k < 3; ++k) {
             low[k] = on_axis(k, std::min({at[0][k], at[1][k], at[2][k]}));
             high[k] = on_axis(k, std::max({at[0][k], at[1][k], at[2][k]}));
+            half[k] = 0.5 / static_cast<double>(size_[k]);
         }
         // In the quantizer's numbers, which are the same for all bins: no axis is much longer than another there.
-        const auto place = [&](std::size_t i, std::size_t k) {
-            return std::ldexp(q.before_rounding(k, at[i][k]), -31);
+        const auto place = [&](std::size_t i) {
+            base::Vector3<double> p;
+            for (std::size_t k = 0; k < 3; ++k) p[k] = std::ldexp(q.before_rounding(k, at[i][k]), -31);
+            return p;
         };
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::size_t a = (k + 1) % 3, b = (k + 2) % 3;
-            normal[k] = (place(1, a) - place(0, a)) * (place(2, b) - place(0, b)) -
-                        (place(1, b) - place(0, b)) * (place(2, a) - place(0, a));
-            half[k] = 0.5 / static_cast<double>(size_[k]);
-            base[k] = place(0, k);
-        }
+        const auto a = place(0), normal = base::cross(base::minus(place(1), a), base::minus(place(2), a));
         // Numbers up to 1, a few roundings each: 2^-40 of the size of the normal's parts is far more than they make.
         double reach = 0, doubt = 0;
-        for (int k = 0; k < 3; ++k) {
+        for (std::size_t k = 0; k < 3; ++k) {
             reach += std::fabs(normal[k]) * half[k];
             doubt = std::max(doubt, std::fabs(normal[k]));
         }
@@ -65,9 +63,9 @@ void SideMap::touch(const SurfaceData& surface) {
         for (std::int32_t k = low[2]; k <= high[2]; ++k) {
             for (std::int32_t j = low[1]; j <= high[1]; ++j) {
                 const double part =
-                    normal[1] * ((2 * j + 1) * half[1] - base[1]) + normal[2] * ((2 * k + 1) * half[2] - base[2]);
+                    normal[1] * ((2 * j + 1) * half[1] - a[1]) + normal[2] * ((2 * k + 1) * half[2] - a[2]);
                 for (std::int32_t i = low[0]; i <= high[0]; ++i) {
-                    const double away = part + normal[0] * ((2 * i + 1) * half[0] - base[0]);
+                    const double away = part + normal[0] * ((2 * i + 1) * half[0] - a[0]);
                     if (std::fabs(away) <= reach)
                         std::atomic_ref(sides_[bin(i, j, k)]).store(touched, std::memory_order_relaxed);
                 }

@@ -17,7 +17,7 @@ bool box_of_triangle_holds(const PlacedFacet& f, const double* p) {
 
 }  // namespace
 
-SurfaceLocation SurfaceData::on_the_way(const double* p, const double* end) const {
+SurfaceLocation SurfaceData::on_the_way(const double* p, const double* end, int side) const {
     CellBox ray = box_of(triangles.index, &p, 1);
     ray.high[0] = std::isfinite(end[0]) ? triangles.index.bins.quantizer().at(0, end[0]) : Quantizer::max;
     SurfaceLocation found;
@@ -36,15 +36,15 @@ SurfaceLocation SurfaceData::on_the_way(const double* p, const double* end) cons
         if (std::isfinite(end[0])) found.winding -= index::crossing(turned, end);
         return true;
     });
-    if (found.triangle >= 0) found.winding = 0;
+    if (found.triangle < 0) return as_location(found.winding + side);
+    found.winding = 0;
     return found;
 }
 
 SurfaceLocation SurfaceData::locate(const double* p) const {
     if (empty() || !triangles.index.box_holds(p)) return {};
     const double end[3] = {HUGE_VAL, p[1], p[2]};
-    const SurfaceLocation found = on_the_way(p, end);
-    return found.triangle >= 0 ? found : as_location(found.winding);
+    return on_the_way(p, end, 0);
 }
 
 /// With the map: most points are told by their bin alone, others by the triangles on the way to the next such bin.
@@ -54,8 +54,7 @@ SurfaceLocation SurfaceData::locate_by_map(const double* p) const {
     if (const std::int16_t side = map.at(p); side != SideMap::touched) return as_location(side);
     double end[3];
     const std::int16_t side = map.next(p, end);
-    const SurfaceLocation found = on_the_way(p, end);
-    return found.triangle >= 0 ? found : as_location(found.winding + side);
+    return on_the_way(p, end, side);
 }
 
 }  // namespace barycert::locate

@@ -40,13 +40,12 @@ struct SurfaceData {
     SurfaceLocation locate_by_map(const double* p) const;
     /// Points are best in the order of space.
     void nearest(std::span<const double* const> points, double limit, std::span<SurfaceNearest* const> to) const;
-    /// False if the triangle has no area.
+    /// Nothing of triangle -1. False if the triangle has no area.
     bool nearest_on(Mesh::Index triangle, const double* p, SurfaceNearest& to) const;
     std::vector<SurfaceHit> hits(const double* a, const double* b, bool ray) const;
 
-    /// Windings that triangles between p and the end of a ray along the first axis add to the point at its end, and the
-    /// triangle that holds p, as the location.
-    SurfaceLocation on_the_way(const double* p, const double* end) const;
+    /// By the triangles between p and the end of a ray along the first axis, which has the winding number `side`.
+    SurfaceLocation on_the_way(const double* p, const double* end, int side) const;
     SurfaceLocation as_location(int winding) const {
         if (turned == Turned::even) winding &= 1;
         if (turned == Turned::open) winding = 0;

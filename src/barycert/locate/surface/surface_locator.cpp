@@ -179,9 +179,7 @@ Status SurfaceLocator::nearest_on(std::span<const Mesh::Index> triangles, std::s
     std::atomic<bool> flat{false};
     base::in_arena(threads, found.size(), [&] {
         base::parallel_for_each(found.size(), 256, [&](std::size_t i) {
-            found[i] = {};
-            found[i].distance = std::numeric_limits<double>::infinity();
-            if (triangles[i] >= 0 && !data_->nearest_on(triangles[i], &points[3 * i], found[i])) flat = true;
+            if (!data_->nearest_on(triangles[i], &points[3 * i], found[i])) flat = true;
             set_on(*data_->surface, &points[3 * i], found[i]);
         });
     });

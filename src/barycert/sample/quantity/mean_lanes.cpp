@@ -66,7 +66,7 @@ HWY_INLINE void volumes_of(const Mesh& mesh, std::size_t first, std::size_t coun
         V rounded[d][d], extent[d];
         for (int i = 0; i < d; ++i) {
             for (int k = 0; k < d; ++k) {
-                edge[i][k] = difference(hn::Load(tag, gathered[i + 1][k]), hn::Load(tag, gathered[0][k]));
+                edge[i][k] = two_difference(hn::Load(tag, gathered[i + 1][k]), hn::Load(tag, gathered[0][k]));
                 rounded[i][k] = edge[i][k].high;
             }
         }
