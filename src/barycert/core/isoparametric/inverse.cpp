@@ -35,9 +35,8 @@ std::optional<double> value_of(const Ball<TwoDoubles>& b, int exponent) {
 /// Rounded, the exact value and the middle lie between the ends of the ball.
 template <unsigned bits>
 std::optional<double> value_of(const Ball<Wide<bits>>& b, int exponent, double* middle, double* off) {
-    const auto end = [&](double by) {
-        return rounded(Rational(ldexp(Wide<bits>(b.mid + Wide<bits>(by)), exponent)));
-    };
+    using Wider = Wide<2400>;  // a sum of numbers from 2^-1060 on is exact
+    const auto end = [&](double by) { return rounded(Rational(ldexp(Wider(Wider(b.mid) + by), exponent))); };
     const double radius = b.radius + 0x1p-1060;
     const double low = end(-radius), high = end(radius);
     *middle = end(0);
