@@ -7,6 +7,7 @@
 
 #include "barycert/core/isoparametric/inverse.hpp"
 #include "barycert/core/isoparametric/lanes.hpp"
+#include "barycert/core/isoparametric/newton.hpp"
 
 namespace barycert::core::isoparametric {
 namespace {
@@ -127,6 +128,15 @@ TEST_P(CurvedSimplices, V1ValuesAreRoundedOnceWhereThePointIs) {
         ASSERT_EQ(value, value_by_newton(c, p, l)) << i;
     }
     EXPECT_LT(straight, 100U);
+}
+
+/// Where a point is left out of what is searched, it is one of the reference triangle's plane.
+TEST_P(CurvedSimplices, PointsOfThePlaneHaveNoThirdCoordinate) {
+    const CurvedSimplex c = cell(0.01);
+    const auto p = c.image<double>(coordinates());
+    Inverse inverse(c.reference, c.places(), p.data());
+    ASSERT_TRUE(inverse.search());
+    EXPECT_EQ(inverse.found()[2] == 0, d() == 2);
 }
 
 TEST_P(CurvedSimplices, PointsOutsideAreTold) {

@@ -148,6 +148,7 @@ public:
                 if (i == 0) x = {0.3, 0.3, of_.element == Element::wedge ? 0.5 : 0.3};
                 if (x[0] + x[1] + (of_.is_simplex() && d_ == 3 ? x[2] : 0) > 1) continue;
             }
+            if (d_ == 2) x[2] = 0;
             if (!newton(x) || !(beside || near_cell(x))) continue;
             x_ = x;
             return true;
@@ -155,6 +156,7 @@ public:
         return false;
     }
 
+    /// In the plane the third coordinate is 0.
     const Vector<double>& found() const { return x_; }
     /// Of the Jacobian there, about.
     const Matrix& inverse() const { return inverse_; }
