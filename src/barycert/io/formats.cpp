@@ -54,6 +54,11 @@ bool exists(const std::string& path) {
     return fs::exists(path, ignored);
 }
 
+bool is_read_once(const std::string& path) {
+    std::error_code ignored;
+    return path == "-" || (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored));
+}
+
 std::string_view without_gz(std::string_view path) {
     return path.ends_with(".gz") ? path.substr(0, path.size() - 3) : path;
 }

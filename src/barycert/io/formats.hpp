@@ -60,6 +60,9 @@ std::string lower(std::string_view text);
 /// Whether there is something of that name, as far as one may see.
 bool exists(const std::string& path);
 
+/// Whether it is the standard input, a pipe or a device.
+bool is_read_once(const std::string& path);
+
 /// The path without .gz at its end: readers unpack such files, and no writer makes one.
 std::string_view without_gz(std::string_view path);
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <set>
 
 #include "barycert/io/npz/weights_file.hpp"
@@ -14,8 +13,6 @@
 
 namespace barycert::jobs {
 namespace {
-
-namespace fs = std::filesystem;
 
 /// Rows whose owners are known, to be sampled again: 29 bytes a row in 3D. Cells are those of the locator.
 RowSource rows_again(const std::vector<Table>& known) {
@@ -159,11 +156,6 @@ RowSource rows_of_points(std::unique_ptr<PointSource>& points) {
         points->take_carried(block.rows.carried);
     };
     return {.count = points->count(), .read = read};
-}
-
-bool is_read_once(const std::string& path) {
-    std::error_code ignored;
-    return path == "-" || (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored));
 }
 
 void sample_rows(SampledMesh& mesh, const RowSource& source, const OpenRows& open, const std::string& map) {

@@ -32,8 +32,6 @@ struct RowSource {
 /// Points that are to be located, to be read once. They must stay.
 RowSource rows_of_points(std::unique_ptr<PointSource>& points);
 
-bool is_read_once(const std::string& path);
-
 /// The rows of a source, which must stay, in blocks: few enough that all `threads` (0: as many as the machine has) have
 /// some, and enough points that sorting them brings near ones together. `seconds` gets those of reading and work.
 class Blocks {

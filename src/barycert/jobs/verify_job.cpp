@@ -8,6 +8,7 @@
 
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/environment.hpp"
+#include "barycert/io/formats.hpp"
 #include "barycert/jobs/claimed_columns.hpp"
 #include "barycert/jobs/stream.hpp"
 #include "barycert/sample/quantity/quantities.hpp"
@@ -99,7 +100,7 @@ private:
         open();
         columns_ = jobs::claimed_columns(job_, mesh_, fields, source_->carried(), report_.notes);
         options.keep = columns_.names();
-        if (!jobs::is_read_once(job_.results)) open();
+        if (!io::is_read_once(job_.results)) open();
     }
 
     void build() {
