@@ -5,6 +5,7 @@
 
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/io/formats.hpp"
+#include "barycert/io/vtk/numbers.hpp"
 #include "barycert/jobs/job_files.hpp"
 #include "barycert/mesh/columns.hpp"
 #include "barycert/mesh/part.hpp"
@@ -58,12 +59,8 @@ Result<Mesh> points_as_mesh(const std::string& path, int dimension, const Error&
         const auto* const integers = std::get_if<std::vector<std::int64_t>>(&label.values);
         if (integers == nullptr) continue;
         Field field{label.name, 1, {}};
-        for (const std::int64_t i : *integers) {
-            const auto x = static_cast<double>(i);
-            if (x >= 0x1p63 || static_cast<std::int64_t>(x) != i) break;
-            field.data.push_back(x);
-        }
-        if (field.data.size() == integers->size()) mesh.point_fields.push_back(std::move(field));
+        const auto add = [&](std::int64_t i) { return io::convert_number(i, field.data.emplace_back()); };
+        if (std::ranges::all_of(*integers, add)) mesh.point_fields.push_back(std::move(field));
     }
     return mesh;
 }
