@@ -20,13 +20,12 @@ namespace {
 using sample::gives_distances;
 
 std::uint64_t count_degenerate(const Mesh& mesh) {
-    const auto is_degenerate = [&](std::size_t cell) {
-        return surface::orientation(mesh, mesh.cells.data() + mesh.corners() * cell) == Sign::zero;
-    };
     return base::parallel_reduce(
         mesh.cell_count(), 1 << 14, std::uint64_t{0},
         [&](std::size_t begin, std::size_t end, std::uint64_t& count) {
-            for (std::size_t c = begin; c != end; ++c) count += is_degenerate(c) ? 1 : 0;
+            for (std::size_t c = begin; c != end; ++c) {
+                if (surface::orientation(mesh, mesh.cells.data() + mesh.corners() * c) == Sign::zero) ++count;
+            }
         },
         [](std::uint64_t& all, std::uint64_t part) { all += part; });
 }

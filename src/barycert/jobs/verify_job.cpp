@@ -34,9 +34,7 @@ bool are_floats(const Claims& claims) {
 }
 
 bool has_digits(double x, int digits) {
-    std::array<char, 32> text{};
-    const auto end = std::to_chars(text.data(), text.data() + text.size(), x, std::chars_format::general, digits).ptr;
-    return base::parse_double({text.data(), end}) == x;
+    return base::parse_double(fmt::format("{:.{}g}", x, digits)) == x;
 }
 
 /// Were the numbers written with six digits, as printf and streams do unless told otherwise?

@@ -68,8 +68,7 @@ struct NpyTable {
     std::uint64_t rows = 0;
     std::vector<NpyColumn> columns;
     std::size_t row_size = 0;  ///< bytes
-    bool structured = false;
-    bool by_columns = false;  ///< one column after the other, not row after row
+    bool by_columns = false;   ///< one column after the other, not row after row
 };
 
 /// The rows are read by blocks and not mapped: memory is bounded, and a file that shrinks meanwhile is told.

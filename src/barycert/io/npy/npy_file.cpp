@@ -143,7 +143,6 @@ const NpyTable& NpyFile::make_table() {
     if (shape.empty() || shape.size() > (header_.structured ? 1U : 2U))
         refuse_file(path_, "an array of another shape", header_.structured ? "(n,)" : "(n, columns)", as_tuple(shape),
                     "save an array with a row for each point");
-    table_.structured = header_.structured;
     table_.rows = shape[0];
     if (header_.structured) {
         table_.columns = header_.fields;
