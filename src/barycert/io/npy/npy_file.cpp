@@ -80,14 +80,13 @@ void make_simple(const NpyHeader& header, const std::string& file, NpyTable& tab
 /// `room`: the bytes after the header.
 void check_room(const NpyTable& table, std::uint64_t room, const std::string& file) {
     const std::uint64_t row = table.row_size;
-    const bool too_few = row != 0 && table.rows > room / row;
-    if (!too_few && table.rows * row == room) return;
-    if (too_few)
+    if (row != 0 && table.rows > room / row)
         refuse_file(file, "the file ends too early",
                     std::to_string(table.rows) + " rows of " + std::to_string(row) + " bytes, as its header tells",
                     std::to_string(room) + " bytes", "the file may be cut short: write it again");
-    refuse_file(file, "bytes after the array", std::to_string(table.rows * row) + ", as the header tells",
-                std::to_string(room), "save one array a file");
+    if (table.rows * row != room)
+        refuse_file(file, "bytes after the array", std::to_string(table.rows * row) + ", as the header tells",
+                    std::to_string(room), "save one array a file");
 }
 
 }  // namespace
