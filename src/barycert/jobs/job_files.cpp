@@ -62,10 +62,6 @@ void check_step_outputs(const std::vector<base::NamedFile>& inputs, const std::s
 
 }  // namespace
 
-void tell_stage(const MeshJob& job, const std::string& what, std::uint64_t done) {
-    if (job.progress) job.progress({.stage = what, .done = done});
-}
-
 Mesh open_mesh(const MeshJob& job, int threads, const StepChoice& step, CurvedCells& curved, bool list_grids) {
     tell_stage(job, "reading " + job.mesh);
     const ReadOptions options{
@@ -102,20 +98,11 @@ BuildOptions build_options(const MeshJob& job, int threads, Prove prove) {
             .progress = [&job](const char* stage) { tell_stage(job, stage); }};
 }
 
-Locator build_locator(const MeshJob& job, const Mesh& mesh, int threads, Prove prove) {
-    return Locator::build(mesh, build_options(job, threads, prove)).value();
-}
-
 void tell_once(Notes notes, MeshReport& report) {
     for (Note& note : notes) {
         const auto same = [&](const Note& told) { return told.kind == note.kind && told.text == note.text; };
         if (std::ranges::none_of(report.notes, same)) report.notes.push_back(std::move(note));
     }
-}
-
-void report_maps(const MeshJob& job, const Locator& locator, MeshReport& report) {
-    report.curved.mapped = locator.has_curved_cells();
-    tell_once(notes_of_maps(locator, job.cell_interpolation, job.mesh), report);
 }
 
 std::vector<base::NamedFile> input_files(const MeshJob& job, const std::vector<base::NamedFile>& more) {

@@ -239,11 +239,6 @@ void SampledMesh::build(const Mesh& mesh, const std::vector<FieldChoice>& fields
     report.seconds.build += watch.lap();
 }
 
-void SampledMesh::build_sampler(const std::vector<FieldChoice>& fields) {
-    sampler_ = Sampler::build(*locator_, fields).value();
-    report.columns = sampler_->columns();
-}
-
 std::vector<FieldChoice> SampledMesh::fields_of_part() {
     std::vector<FieldChoice> fields = fields_;
     for (FieldChoice& choice : fields)
@@ -323,12 +318,6 @@ void SampledMesh::name_cells(Table& rows) const {
     for (Mesh::Index& cell : rows.cells) {
         if (cell >= 0) cell = part_->cells[static_cast<std::size_t>(cell)];
     }
-}
-
-void SampledMesh::prepare_without_search(FoundBy method, const std::string& reason) {
-    report.method = method;
-    report.reason = reason;
-    build(mesh_, fields_, Prove::never);
 }
 
 }  // namespace barycert::jobs

@@ -48,7 +48,11 @@ public:
     void prepare(std::span<const double> all_points = {});
 
     /// Prepares where no owner is asked of a point alone: they are known, or the cells find their points.
-    void prepare_without_search(FoundBy method, const std::string& reason);
+    void prepare_without_search(FoundBy method, const std::string& reason) {
+        report.method = method;
+        report.reason = reason;
+        build(mesh_, fields_, Prove::never);
+    }
 
     /// Precondition: prepared.
     const Locator& locator() const { return *locator_; }
@@ -104,7 +108,10 @@ private:
     /// Whether cells may have maps (BuildOptions).
     bool may_be_mapped() const;
     std::optional<std::vector<Mesh::Index>> cells_near(std::span<const double> points);
-    void build_sampler(const std::vector<FieldChoice>& fields);
+    void build_sampler(const std::vector<FieldChoice>& fields) {
+        sampler_ = Sampler::build(*locator_, fields).value();
+        report.columns = sampler_->columns();
+    }
     void build(const Mesh& mesh, const std::vector<FieldChoice>& fields, Prove prove);
 
     const bool list_grids_;

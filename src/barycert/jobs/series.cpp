@@ -172,10 +172,6 @@ std::vector<Step> find_steps(const SamplingJob& job) {
     return steps;
 }
 
-bool has_step_place(const std::string& output) {
-    return output.find(step_place) != std::string::npos || output.find(time_place) != std::string::npos;
-}
-
 std::string output_of_step(const std::string& output, const Step& step) {
     std::string path = output;
     for (const auto& [place, text] : {std::pair(step_place, step.label), std::pair(time_place, step.time)}) {

@@ -176,11 +176,6 @@ void sample_rows(SampledMesh& mesh, const RowSource& source, const OpenRows& ope
     });
 }
 
-SampleOptions without_refusal(SampleOptions options) {
-    if (options.outside.kind == Outside::error) options.outside = {};
-    return options;
-}
-
 Error outside_error(const std::string& what, std::span<const double> where, const std::string& file) {
     return file_error(file, what + ", counted from 0, is outside the mesh", "",
                       "(" + base::joined(where, ", ", base::shortest) + ")",
@@ -196,11 +191,6 @@ std::uint64_t count_nan(const TableView& rows) {
         for (std::size_t c = 0; c < columns; ++c) count += std::isnan(rows.values[columns * i + c]) ? 1 : 0;
     }
     return count;
-}
-
-void refuse_kept(const std::string& name) {
-    refuse("", "a column to keep has the name of another column of the rows", "", base::quoted(name),
-           "name the columns to keep, with another name for this one: job.keep OTHER=" + base::printable(name));
 }
 
 Sink open_user_rows(SampledMesh& mesh, const std::vector<ColumnFormat>& carried, bool all, const OpenFormat& open) {

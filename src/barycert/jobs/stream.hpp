@@ -80,7 +80,10 @@ void sample_rows(SampledMesh& mesh, const RowSource& source, const OpenRows& ope
 using OpenFormat = std::function<Sink(const TableFormat& format)>;
 
 /// A column of the points that the rows cannot have, too.
-[[noreturn]] void refuse_kept(const std::string& name);
+[[noreturn]] inline void refuse_kept(const std::string& name) {
+    refuse("", "a column to keep has the name of another column of the rows", "", base::quoted(name),
+           "name the columns to keep, with another name for this one: job.keep OTHER=" + base::printable(name));
+}
 
 /// Opens an output by open(format of its rows) and returns what takes rows whose cells are those of the mesh, and gives
 /// it what users are to see: cells by their numbers in the file, labels that the job asked for, and `carried` columns
@@ -114,7 +117,10 @@ Sink changed(std::shared_ptr<TableSink> sink, Change change) {
 Sink open_rows(const std::string& path, const TableFormat& format);
 
 /// The policy `error` is looked at where the point and its file are known: options without it.
-SampleOptions without_refusal(SampleOptions options);
+inline SampleOptions without_refusal(SampleOptions options) {
+    if (options.outside.kind == Outside::error) options.outside = {};
+    return options;
+}
 
 /// That `what` ("point 7"), at `where`, is outside, and none may be.
 Error outside_error(const std::string& what, std::span<const double> where, const std::string& file);

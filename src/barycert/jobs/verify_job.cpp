@@ -239,15 +239,4 @@ Result<VerifyLimit> parse_verify_limit(std::string_view text) {
                       '"' + std::string(text) + '"', base::did_you_mean(limit.name, names));
 }
 
-bool VerifyReport::compared(RowVerdict verdict) const {
-    if (verdict == RowVerdict::wrong_cell) return !cell_column.empty();
-    return verdict != RowVerdict::wrong_value || !columns.empty();
-}
-
-std::vector<VerifyLimit> VerifyReport::exceeded() const {
-    std::vector<VerifyLimit> all = limits;
-    std::erase_if(all, [&](const VerifyLimit& l) { return verdicts.of(l.verdict) <= l.most; });
-    return all;
-}
-
 }  // namespace barycert

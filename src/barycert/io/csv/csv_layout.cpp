@@ -70,12 +70,6 @@ bool looks_numeric(std::string_view field) {
     return !field.empty() && barycert::io::is_digit(field.front());
 }
 
-bool holds_fields(std::string_view line, char separator) {
-    const std::size_t at = line.find_first_not_of(" \t");
-    if (at == std::string_view::npos) return separator == '\t' && line.find('\t') != std::string_view::npos;
-    return line[at] != '#';
-}
-
 CsvLine cut_first_line(std::string_view line, const LinePlace& place) {
     if (line.find('\r') != std::string_view::npos)
         refuse_line(place.file, place.line, "lines end with CR alone", "LF or CR LF", "CR alone",
@@ -163,11 +157,6 @@ void TypeOfTexts::see(std::string_view text) {
     numbers = value.has_value();
     if (!numbers || !is_rounded(text, *value)) return;
     (*value == 0 ? lost : rounded) = true;
-}
-
-Column::Type TypeOfTexts::type() const {
-    if (any && integers && !empty) return Column::Type::integer;
-    return any && numbers ? Column::Type::number : Column::Type::text;
 }
 
 }  // namespace barycert::io

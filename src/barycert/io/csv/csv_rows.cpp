@@ -92,10 +92,6 @@ bool parse_plain(std::string_view line, const CsvLayout& layout, std::array<doub
 
 }  // namespace
 
-std::string separator_name(char separator) {
-    return separator == ',' ? "commas" : separator == ';' ? "semicolons" : separator == '\t' ? "tabs" : "blanks";
-}
-
 void check_cut(const FieldCutter& cutter, std::string_view line, std::size_t count, const CsvLayout& layout,
                const LinePlace& place) {
     if (cutter.malformed())

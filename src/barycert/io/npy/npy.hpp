@@ -82,7 +82,9 @@ public:
     const NpyTable& make_table();
 
     /// How many rows of the table are read at once: some hundred kilobytes, or one.
-    std::size_t rows_at_once() const;
+    std::size_t rows_at_once() const {
+        return std::max<std::size_t>(1, (std::size_t{1} << 18) / std::max<std::size_t>(1, table_.row_size));
+    }
 
     /// Reads `count` rows from row `first` on; of a table by columns nothing, yet.
     void go_to(std::uint64_t first, std::size_t count);

@@ -6,8 +6,6 @@
 namespace barycert::io {
 namespace {
 
-constexpr std::size_t bytes_at_once = std::size_t{1} << 18;
-
 /// Sign, 5 bits of exponent, 10 of fraction.
 double half(std::uint16_t bits) {
     const auto fraction = static_cast<double>(bits & 0x3FFU);
@@ -152,10 +150,6 @@ const NpyTable& NpyFile::make_table() {
     }
     check_room(table_, file_.size() - header_.size, path_);
     return table_;
-}
-
-std::size_t NpyFile::rows_at_once() const {
-    return std::max<std::size_t>(1, bytes_at_once / std::max<std::size_t>(1, table_.row_size));
 }
 
 void NpyFile::go_to(std::uint64_t first, std::size_t count) {
