@@ -50,11 +50,6 @@ bool is_read_once(const std::string& path) {
     return path == "-" || (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored));
 }
 
-std::string suffix_of(const std::string& path) {
-    const std::size_t dot = path.find_last_of("./");
-    return dot == std::string::npos || path[dot] == '/' ? "" : path.substr(dot);
-}
-
 Error unknown_suffix(const std::string& path, std::string what, std::string expected, std::string remedy) {
     const std::string suffix = suffix_of(path);
     return file_error(path, std::move(what), std::move(expected), suffix.empty() ? "no suffix" : '"' + suffix + '"',

@@ -85,7 +85,10 @@ inline bool has_one_of(std::string_view path, std::initializer_list<std::string_
     return std::ranges::any_of(suffixes, [&](std::string_view one) { return has_suffix(path, one); });
 }
 
-std::string suffix_of(const std::string& path);
+inline std::string suffix_of(const std::string& path) {
+    const std::size_t dot = path.find_last_of("./");
+    return dot == std::string::npos || path[dot] == '/' ? "" : path.substr(dot);
+}
 Error unknown_suffix(const std::string& path, std::string what, std::string expected, std::string remedy);
 
 inline bool is_vtk_file(std::string_view path) {

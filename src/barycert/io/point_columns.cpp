@@ -214,13 +214,4 @@ PointColumns choose_columns(const TableColumns& all, int dimension, const PointO
     return out;
 }
 
-Error off_plane(const std::string& file, std::size_t line, const std::string& row, const std::string& found) {
-    return {"a point off the plane z = 0" + (row.empty() ? row : ": " + row),
-            file,
-            line,
-            "z = 0, for the mesh is 2D",
-            found,
-            "options.columns x,y leaves z out of account"};
-}
-
 }  // namespace barycert::io

@@ -60,7 +60,14 @@ PointColumns choose_columns(const TableColumns& all, int dimension, const PointO
 inline constexpr const char* or_nan_for_it = ", or take NaN for its values: options.nonfinite_points nan";
 
 /// A z that is not 0 beside a mesh in the plane. `row`: of which point, or empty.
-Error off_plane(const std::string& file, std::size_t line, const std::string& row, const std::string& found);
+inline Error off_plane(const std::string& file, std::size_t line, const std::string& row, const std::string& found) {
+    return {"a point off the plane z = 0" + (row.empty() ? row : ": " + row),
+            file,
+            line,
+            "z = 0, for the mesh is 2D",
+            found,
+            "options.columns x,y leaves z out of account"};
+}
 
 /// "a", "b", ...: at most 8.
 std::string listed(const std::vector<std::string>& names);

@@ -163,11 +163,6 @@ bool is_file_of_a_mesh(const std::string& path) {
            std::filesystem::is_regular_file(path, ignored) && io::mesh_format(path);
 }
 
-bool is_name_of_rows(const std::string& name) {
-    constexpr std::array<std::string_view, 7> taken{"x", "y", "z", "cell", "feature", "distance", "vtkValidPointMask"};
-    return std::find(taken.begin(), taken.end(), name) != taken.end();
-}
-
 Field read_field(const Mesh& mesh, FieldFile& file, Notes& notes) {
     if (is_file_of_a_mesh(file.path) || is_solution(file.path)) return read_array(mesh, file, notes);
     return io::read_field_file(file.name, file.path, file.column, notes).value();

@@ -112,12 +112,6 @@ std::vector<base::NamedFile> input_files(const MeshJob& job, const std::vector<b
     return inputs;
 }
 
-void check_outputs(const MeshJob& job, const std::vector<base::NamedFile>& inputs,
-                   std::vector<base::NamedFile> outputs) {
-    for (const auto& [what, path] : job.reports) outputs.push_back({what, path});
-    base::check_outputs(inputs, std::move(outputs)).value();
-}
-
 void check_files(const MeshJob& job, std::vector<base::NamedFile> more_inputs, std::vector<base::NamedFile> outputs,
                  const std::vector<base::NamedFile>& unread) {
     std::vector<base::NamedFile> inputs = input_files(job, more_inputs);

@@ -99,8 +99,11 @@ inline Locator build_locator(const MeshJob& job, const Mesh& mesh, int threads, 
 std::vector<base::NamedFile> input_files(const MeshJob& job, const std::vector<base::NamedFile>& more = {});
 
 /// The outputs and the reports of the job, held against the inputs by base::check_outputs.
-void check_outputs(const MeshJob& job, const std::vector<base::NamedFile>& inputs,
-                   std::vector<base::NamedFile> outputs);
+inline void check_outputs(const MeshJob& job, const std::vector<base::NamedFile>& inputs,
+                          std::vector<base::NamedFile> outputs) {
+    for (const auto& [what, path] : job.reports) outputs.push_back({what, path});
+    base::check_outputs(inputs, std::move(outputs)).value();
+}
 
 /// What can be known of files before the work: of a job with those outputs and, besides the mesh and fields, those
 /// inputs; `unread`: inputs, too, but who reads them tells what is wrong. Refused: an output that is an input or

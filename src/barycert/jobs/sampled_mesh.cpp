@@ -305,19 +305,4 @@ void SampledMesh::let_go_of_mesh() {
     for (Field& field : mesh_.point_fields) field.data = std::vector<double>();
 }
 
-NodeWeights SampledMesh::weights_of(const TableView& rows) const {
-    NodeWeights weights = node_weights(*locator_, rows, job.options.outside).value();
-    // Nodes of a part are in the order of the mesh.
-    if (!part_) return weights;
-    for (Mesh::Index& node : weights.nodes) node = part_->nodes[static_cast<std::size_t>(node)];
-    return weights;
-}
-
-void SampledMesh::name_cells(Table& rows) const {
-    if (!part_) return;
-    for (Mesh::Index& cell : rows.cells) {
-        if (cell >= 0) cell = part_->cells[static_cast<std::size_t>(cell)];
-    }
-}
-
 }  // namespace barycert::jobs

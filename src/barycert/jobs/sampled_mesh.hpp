@@ -80,10 +80,21 @@ public:
     void let_go_of_mesh();
 
     /// The weights of rows as the locator names their cells, on the nodes of the mesh. Not after let_go_of_mesh().
-    NodeWeights weights_of(const TableView& rows) const;
+    NodeWeights weights_of(const TableView& rows) const {
+        NodeWeights weights = node_weights(*locator_, rows, job.options.outside).value();
+        // Nodes of a part are in the order of the mesh.
+        if (!part_) return weights;
+        for (Mesh::Index& node : weights.nodes) node = part_->nodes[static_cast<std::size_t>(node)];
+        return weights;
+    }
 
     /// Sampled rows name cells as the locator counts them; afterwards, as the mesh does.
-    void name_cells(Table& rows) const;
+    void name_cells(Table& rows) const {
+        if (!part_) return;
+        for (Mesh::Index& cell : rows.cells) {
+            if (cell >= 0) cell = part_->cells[static_cast<std::size_t>(cell)];
+        }
+    }
 
     /// What the rows of this job have, without labels.
     TableFormat format() const;

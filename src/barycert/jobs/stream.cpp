@@ -176,12 +176,6 @@ void sample_rows(SampledMesh& mesh, const RowSource& source, const OpenRows& ope
     });
 }
 
-Error outside_error(const std::string& what, std::span<const double> where, const std::string& file) {
-    return file_error(file, what + ", counted from 0, is outside the mesh", "",
-                      "(" + base::joined(where, ", ", base::shortest) + ")",
-                      "choose what points outside get: job.outside nan, fill=V, nearest or extrapolate");
-}
-
 std::uint64_t count_nan(const TableView& rows) {
     if (rows.row_count() == 0 || base::all_finite(rows.values)) return 0;
     const std::size_t columns = rows.values.size() / rows.row_count();

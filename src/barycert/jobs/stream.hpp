@@ -42,7 +42,10 @@ public:
         : source_(source), threads_(threads), seconds_(seconds) {}
 
     /// Reads the first block, with which run() will begin.
-    Block& first();
+    Block& first() {
+        read(first_.emplace());
+        return *first_;
+    }
 
     bool have_more() const { return more_; }
 
@@ -123,7 +126,11 @@ inline SampleOptions without_refusal(SampleOptions options) {
 }
 
 /// That `what` ("point 7"), at `where`, is outside, and none may be.
-Error outside_error(const std::string& what, std::span<const double> where, const std::string& file);
+inline Error outside_error(const std::string& what, std::span<const double> where, const std::string& file) {
+    return file_error(file, what + ", counted from 0, is outside the mesh", "",
+                      "(" + base::joined(where, ", ", base::shortest) + ")",
+                      "choose what points outside get: job.outside nan, fill=V, nearest or extrapolate");
+}
 
 std::uint64_t count_nan(const TableView& rows);
 
