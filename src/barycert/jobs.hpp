@@ -271,8 +271,15 @@ struct VerifyReport : MeshReport {
     JobSeconds seconds;
 
     /// Whether rows could be of that kind: wrong_cell takes a column of cells, wrong_value one of values.
-    bool compared(RowVerdict verdict) const;
-    std::vector<VerifyLimit> exceeded() const;
+    bool compared(RowVerdict verdict) const {
+        if (verdict == RowVerdict::wrong_cell) return !cell_column.empty();
+        return verdict != RowVerdict::wrong_value || !columns.empty();
+    }
+    std::vector<VerifyLimit> exceeded() const {
+        std::vector<VerifyLimit> all = limits;
+        std::erase_if(all, [&](const VerifyLimit& l) { return verdicts.of(l.verdict) <= l.most; });
+        return all;
+    }
 };
 
 /// Returns an Error if an input cannot be read, the results have no column that could be compared, or there is a limit

@@ -12,15 +12,6 @@ namespace barycert::io {
 
 namespace fs = std::filesystem;
 
-void refuse_file(std::string file, std::string what, std::string expected, std::string found, std::string remedy) {
-    refuse_line(std::move(file), 0, std::move(what), std::move(expected), std::move(found), std::move(remedy));
-}
-
-void refuse_line(std::string file, std::size_t line, std::string what, std::string expected, std::string found,
-                 std::string remedy) {
-    throw Exception({std::move(what), std::move(file), line, std::move(expected), std::move(found), std::move(remedy)});
-}
-
 void cut_fields(std::string_view line, std::string_view blanks, std::string_view separators,
                 std::vector<std::string_view>& fields) {
     const auto is_one = [&](std::size_t i, std::string_view of) {
@@ -54,36 +45,15 @@ bool exists(const std::string& path) {
     return fs::exists(path, ignored);
 }
 
-std::string_view without_gz(std::string_view path) {
-    return path.ends_with(".gz") ? path.substr(0, path.size() - 3) : path;
-}
-
-std::string plain_or_packed(const std::string& path) {
-    return !exists(path) && exists(path + ".gz") ? path + ".gz" : path;
-}
-
-bool has_suffix(std::string_view path, std::string_view suffix) {
-    return lower(without_gz(path)).ends_with(suffix);
-}
-
-bool has_one_of(std::string_view path, std::initializer_list<std::string_view> suffixes) {
-    return std::ranges::any_of(suffixes, [&](std::string_view one) { return has_suffix(path, one); });
-}
-
-std::string suffix_of(const std::string& path) {
-    const std::size_t dot = path.find_last_of("./");
-    return dot == std::string::npos || path[dot] == '/' ? "" : path.substr(dot);
+bool is_read_once(const std::string& path) {
+    std::error_code ignored;
+    return path == "-" || (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored));
 }
 
 Error unknown_suffix(const std::string& path, std::string what, std::string expected, std::string remedy) {
     const std::string suffix = suffix_of(path);
     return file_error(path, std::move(what), std::move(expected), suffix.empty() ? "no suffix" : '"' + suffix + '"',
                       std::move(remedy));
-}
-
-bool is_vtk_file(std::string_view path) {
-    return has_one_of(path, {".vtu", ".vtk", ".vtp", ".pvtu", ".pvtp", ".vtm", ".vtpd", ".vtpc", ".pvd", ".series",
-                             ".vti", ".vtr", ".vts"});
 }
 
 Result<FileFormat> format_of(const std::string& path) {

@@ -21,10 +21,14 @@ Result<FileFormat> format_of_points(const std::string& path);
 
 using base::whole_number;
 
-[[noreturn]] void refuse_file(std::string file, std::string what, std::string expected = {}, std::string found = {},
-                              std::string remedy = {});
-[[noreturn]] void refuse_line(std::string file, std::size_t line, std::string what, std::string expected = {},
-                              std::string found = {}, std::string remedy = {});
+[[noreturn]] inline void refuse_line(std::string file, std::size_t line, std::string what, std::string expected = {},
+                                     std::string found = {}, std::string remedy = {}) {
+    throw Exception({std::move(what), std::move(file), line, std::move(expected), std::move(found), std::move(remedy)});
+}
+[[noreturn]] inline void refuse_file(std::string file, std::string what, std::string expected = {},
+                                     std::string found = {}, std::string remedy = {}) {
+    refuse_line(std::move(file), 0, std::move(what), std::move(expected), std::move(found), std::move(remedy));
+}
 
 /// read() in the environment of exact results. Error: what it throws as an Exception; memory is short.
 template <class Read>
@@ -60,20 +64,37 @@ std::string lower(std::string_view text);
 /// Whether there is something of that name, as far as one may see.
 bool exists(const std::string& path);
 
+/// Whether it is the standard input, a pipe or a device.
+bool is_read_once(const std::string& path);
+
 /// The path without .gz at its end: readers unpack such files, and no writer makes one.
-std::string_view without_gz(std::string_view path);
+inline std::string_view without_gz(std::string_view path) {
+    return path.ends_with(".gz") ? path.substr(0, path.size() - 3) : path;
+}
 
 /// The path, or with .gz at its end where there is only such a file.
-std::string plain_or_packed(const std::string& path);
+inline std::string plain_or_packed(const std::string& path) {
+    return !exists(path) && exists(path + ".gz") ? path + ".gz" : path;
+}
 
 /// True if the path, but for .gz, ends so, or in one of these, in any case. Suffixes are in lower case.
-bool has_suffix(std::string_view path, std::string_view suffix);
-bool has_one_of(std::string_view path, std::initializer_list<std::string_view> suffixes);
+inline bool has_suffix(std::string_view path, std::string_view suffix) {
+    return lower(without_gz(path)).ends_with(suffix);
+}
+inline bool has_one_of(std::string_view path, std::initializer_list<std::string_view> suffixes) {
+    return std::ranges::any_of(suffixes, [&](std::string_view one) { return has_suffix(path, one); });
+}
 
-std::string suffix_of(const std::string& path);
+inline std::string suffix_of(const std::string& path) {
+    const std::size_t dot = path.find_last_of("./");
+    return dot == std::string::npos || path[dot] == '/' ? "" : path.substr(dot);
+}
 Error unknown_suffix(const std::string& path, std::string what, std::string expected, std::string remedy);
 
-bool is_vtk_file(std::string_view path);
+inline bool is_vtk_file(std::string_view path) {
+    return has_one_of(path, {".vtu", ".vtk", ".vtp", ".pvtu", ".pvtp", ".vtm", ".vtpd", ".vtpc", ".pvd", ".series",
+                             ".vti", ".vtr", ".vts"});
+}
 
 // As open_points and open_table. Errors are thrown as Exceptions.
 using Source = std::unique_ptr<PointSource>;

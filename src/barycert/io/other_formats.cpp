@@ -126,13 +126,9 @@ std::string by_paraview(const std::string& path) {
 
 std::string_view first_word(std::string_view text, char comment) {
     while (true) {
-        const std::size_t at = text.find_first_not_of(" \t\r\n");
-        if (at == std::string_view::npos) return {};
-        text.remove_prefix(at);
-        if (text.front() != comment) return text.substr(0, text.find_first_of(" \t\r\n"));
-        const std::size_t feed = text.find('\n');
-        if (feed == std::string_view::npos) return {};
-        text.remove_prefix(feed);
+        text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
+        if (!text.starts_with(comment)) return text.substr(0, text.find_first_of(" \t\r\n"));
+        text.remove_prefix(std::min(text.find('\n'), text.size()));
     }
 }
 
@@ -143,12 +139,11 @@ const OtherFormat* other_format_by_suffix(std::string_view path) {
 
 const OtherFormat* packed_format(std::string_view head) {
     using std::string_view_literals::operator""sv;
-    constexpr std::array<std::pair<std::string_view, std::string_view>, 5> magics{{{"BZh", ".bz2"},
-                                                                                   {"\3757zXZ\0"sv, ".xz"},
-                                                                                   {"\x28\xb5\x2f\xfd", ".zst"},
-                                                                                   {"PK\x03\x04", ".zip"},
-                                                                                   {"\x93NUMPY", ".npy"}}};
-    for (const auto& [bytes, suffix] : magics) {
+    for (const auto& [bytes, suffix] : {std::pair("BZh"sv, ".bz2"),
+                                        {"\3757zXZ\0"sv, ".xz"},
+                                        {"\x28\xb5\x2f\xfd"sv, ".zst"},
+                                        {"PK\x03\x04"sv, ".zip"},
+                                        {"\x93NUMPY"sv, ".npy"}}) {
         if (head.starts_with(bytes)) return by_suffix(suffix);
     }
     return nullptr;

@@ -150,10 +150,6 @@ void note_the_others(const TableColumns& all, PointColumns& out) {
 
 }  // namespace
 
-std::string column_number(std::size_t column) {
-    return "column" + std::to_string(column + 1);
-}
-
 std::string listed(const std::vector<std::string>& names) {
     const std::string text =
         base::joined(std::span(names).first(std::min(most_listed, names.size())), ", ", base::quoted);
@@ -170,15 +166,6 @@ std::vector<std::string> parts_of(const std::vector<std::string>& texts, std::si
         parts.insert(parts.end(), fields.begin(), fields.end());
     }
     return parts;
-}
-
-std::optional<std::size_t> place_of(std::string_view column) {
-    const std::optional<std::size_t> place = whole_number<std::size_t>(column);
-    return place == std::size_t{0} ? std::nullopt : place;
-}
-
-bool are_places(const std::vector<std::string>& columns) {
-    return std::ranges::all_of(columns, [](const std::string& text) { return place_of(text).has_value(); });
 }
 
 std::optional<PointColumns> find_coordinates(const TableColumns& all, int dimension) {
@@ -225,15 +212,6 @@ PointColumns choose_columns(const TableColumns& all, int dimension, const PointO
     keep_columns(all, options.keep, out);
     note_the_others(all, out);
     return out;
-}
-
-Error off_plane(const std::string& file, std::size_t line, const std::string& row, const std::string& found) {
-    return {"a point off the plane z = 0" + (row.empty() ? row : ": " + row),
-            file,
-            line,
-            "z = 0, for the mesh is 2D",
-            found,
-            "options.columns x,y leaves z out of account"};
 }
 
 }  // namespace barycert::io

@@ -35,10 +35,11 @@ private:
     std::vector<Column> columns_;
 };
 
+/// A column: the numbers numbers[step * i], or a label; neither of one that is not read.
 struct Place {
-    const Field* field = nullptr;  ///< else a coordinate or a label
-    std::size_t component = 0;     ///< or the coordinate, or the label
-    bool label = false;
+    const double* numbers = nullptr;
+    std::size_t step = 0;
+    Column* label = nullptr;
 };
 
 PointTable nodes_of(Mesh mesh) {
@@ -82,24 +83,22 @@ Source points_of_table(PointTable table, const std::string& file, int dimension,
         all.names.push_back(std::move(name));
         places.push_back(place);
     };
-    for (std::size_t axis = 0; axis < size; ++axis) add(std::string(1, "xyz"[axis]), {nullptr, axis});
+    for (std::size_t axis = 0; axis < size; ++axis)
+        add(std::string(1, "xyz"[axis]), {table.points.data() + axis, size});
     for (const Field& field : table.fields) {
         const std::vector<std::string> names = column_names({{field.name, field.components}});
-        for (std::size_t c = 0; c < names.size(); ++c) add(names[c], {&field, c});
+        for (std::size_t c = 0; c < names.size(); ++c) add(names[c], {field.data.data() + c, names.size()});
     }
-    for (std::size_t i = 0; i < table.labels.size(); ++i) add(table.labels[i].name, {nullptr, i, true});
+    for (Column& label : table.labels) add(label.name, {.label = &label});
     for (const std::string& name : table.unread) add(name, {});
 
     PointColumns chosen = choose_columns(all, dimension, options);
-    const auto number = [&](const Place& place, std::size_t i) {
-        if (place.field == nullptr) return table.points[size * i + place.component];
-        return place.field->data[static_cast<std::size_t>(place.field->components) * i + place.component];
-    };
+    const auto number = [](const Place& place, std::size_t i) { return place.numbers[place.step * i]; };
     const std::size_t count = table.points.size() / size, d = chosen.axes.size();
     std::vector<double> points(d * count);
     for (std::size_t axis = 0; axis < d; ++axis) {
         const std::size_t column = chosen.axes[axis];
-        if (places[column].label)
+        if (places[column].label != nullptr)
             refuse_file(file,
                         table.of_nodes ? "a marker cannot be a coordinate"
                                        : "a column of texts or large integers cannot be a coordinate",
@@ -123,8 +122,8 @@ Source points_of_table(PointTable table, const std::string& file, int dimension,
     std::vector<Column> columns;
     for (PointColumns::Kept& kept : chosen.kept) {
         const Place& place = places[kept.column];
-        if (place.label) {
-            columns.push_back({std::move(kept.name), std::move(table.labels[place.component].values)});
+        if (place.label != nullptr) {
+            columns.push_back({std::move(kept.name), std::move(place.label->values)});
             continue;
         }
         std::vector<double> values(count);

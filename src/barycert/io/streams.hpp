@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "barycert/base/output_file.hpp"
+#include "barycert/base/text.hpp"
 #include "barycert/io.hpp"
 #include "barycert/io/parallel.hpp"
 #include "barycert/mesh/columns.hpp"
@@ -19,7 +20,9 @@ struct TableColumns {
 };
 
 /// column1, column2, ...
-std::string column_number(std::size_t column);
+inline std::string column_number(std::size_t column) {
+    return "column" + std::to_string(column + 1);
+}
 
 struct PointColumns {
     struct Kept {
@@ -43,8 +46,13 @@ std::optional<PointColumns> find_coordinates(const TableColumns& all, int dimens
 std::vector<std::string> parts_of(const std::vector<std::string>& texts, std::size_t count);
 
 /// The place of a column, from 1, if the text is one; whether all are.
-std::optional<std::size_t> place_of(std::string_view column);
-bool are_places(const std::vector<std::string>& columns);
+inline std::optional<std::size_t> place_of(std::string_view column) {
+    const std::optional<std::size_t> place = base::whole_number<std::size_t>(column);
+    return place == std::size_t{0} ? std::nullopt : place;
+}
+inline bool are_places(const std::vector<std::string>& columns) {
+    return std::ranges::all_of(columns, [](const std::string& text) { return place_of(text).has_value(); });
+}
 
 /// By PointOptions. Errors: columns that are not there, or not clear; a coordinate that is to be carried through.
 PointColumns choose_columns(const TableColumns& all, int dimension, const PointOptions& options);
@@ -52,7 +60,14 @@ PointColumns choose_columns(const TableColumns& all, int dimension, const PointO
 inline constexpr const char* or_nan_for_it = ", or take NaN for its values: options.nonfinite_points nan";
 
 /// A z that is not 0 beside a mesh in the plane. `row`: of which point, or empty.
-Error off_plane(const std::string& file, std::size_t line, const std::string& row, const std::string& found);
+inline Error off_plane(const std::string& file, std::size_t line, const std::string& row, const std::string& found) {
+    return {"a point off the plane z = 0" + (row.empty() ? row : ": " + row),
+            file,
+            line,
+            "z = 0, for the mesh is 2D",
+            found,
+            "options.columns x,y leaves z out of account"};
+}
 
 /// "a", "b", ...: at most 8.
 std::string listed(const std::vector<std::string>& names);

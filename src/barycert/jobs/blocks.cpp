@@ -43,11 +43,6 @@ struct OnTheWay {
 
 }  // namespace
 
-Block& Blocks::first() {
-    read(first_.emplace());
-    return *first_;
-}
-
 void Blocks::read(Block& block) {
     Stopwatch watch;
     block.first = taken_;

@@ -177,10 +177,9 @@ public:
 private:
     Cut cut_plane(const CutOptions& options) {
         tell_stage(job_, "cutting");
-        const std::array<double, 3>& n = job_.plane->normal;
         const auto height = [&](std::size_t i) {
             const double* const x = mesh_.points.data() + 3 * i;
-            return n[0] * x[0] + n[1] * x[1] + n[2] * x[2];
+            return dot(job_.plane->normal, {x[0], x[1], x[2]});
         };
         set_range(mesh_, height, report_);
         return slice(mesh_, *job_.plane, options).value();

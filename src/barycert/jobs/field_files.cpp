@@ -5,6 +5,7 @@
 
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/io/formats.hpp"
+#include "barycert/io/vtk/numbers.hpp"
 #include "barycert/jobs/job_files.hpp"
 #include "barycert/mesh/columns.hpp"
 #include "barycert/mesh/part.hpp"
@@ -58,12 +59,8 @@ Result<Mesh> points_as_mesh(const std::string& path, int dimension, const Error&
         const auto* const integers = std::get_if<std::vector<std::int64_t>>(&label.values);
         if (integers == nullptr) continue;
         Field field{label.name, 1, {}};
-        for (const std::int64_t i : *integers) {
-            const auto x = static_cast<double>(i);
-            if (x >= 0x1p63 || static_cast<std::int64_t>(x) != i) break;
-            field.data.push_back(x);
-        }
-        if (field.data.size() == integers->size()) mesh.point_fields.push_back(std::move(field));
+        const auto add = [&](std::int64_t i) { return io::convert_number(i, field.data.emplace_back()); };
+        if (std::ranges::all_of(*integers, add)) mesh.point_fields.push_back(std::move(field));
     }
     return mesh;
 }
@@ -164,11 +161,6 @@ bool is_file_of_a_mesh(const std::string& path) {
     std::error_code ignored;  // what is no regular file is not opened to look at it
     return !io::has_one_of(path, {".csv", ".txt", ".dat", ".xyz", ".tsv", ".npy"}) &&
            std::filesystem::is_regular_file(path, ignored) && io::mesh_format(path);
-}
-
-bool is_name_of_rows(const std::string& name) {
-    constexpr std::array<std::string_view, 7> taken{"x", "y", "z", "cell", "feature", "distance", "vtkValidPointMask"};
-    return std::find(taken.begin(), taken.end(), name) != taken.end();
 }
 
 Field read_field(const Mesh& mesh, FieldFile& file, Notes& notes) {

@@ -1,6 +1,7 @@
 /// Fields from files, among those of the mesh; and labels of its cells, among the fields that a job names.
 #pragma once
 
+#include <algorithm>
 #include <deque>
 
 #include "barycert/jobs.hpp"
@@ -8,7 +9,10 @@
 namespace barycert::jobs {
 
 /// True for names that outputs have besides fields: x, y, z, cell, feature, distance, vtkValidPointMask.
-bool is_name_of_rows(const std::string& name);
+inline bool is_name_of_rows(const std::string& name) {
+    constexpr std::array<std::string_view, 7> taken{"x", "y", "z", "cell", "feature", "distance", "vtkValidPointMask"};
+    return std::ranges::find(taken, name) != taken.end();
+}
 
 /// Whether fields are read as arrays of a mesh: by the suffix (.dat is a table, if Tecplot's, too), else the content.
 bool is_file_of_a_mesh(const std::string& path);

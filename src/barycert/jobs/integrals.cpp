@@ -34,12 +34,13 @@ MeanRule rule_of_nodes(const Mesh& mesh) {
     return mesh.dimension == 2 ? MeanRule{3, 0, 1, 3} : MeanRule{4, -1, 4, 20};
 }
 
-/// Exact, and rounded once.
-std::pair<double, std::uint64_t> integral(const Mesh& mesh, const std::vector<double>& values, const MeanRule& rule) {
+/// Of the numbers values[first + step * entity]. Exact, and rounded once.
+std::pair<double, std::uint64_t> integral(const Mesh& mesh, const std::vector<double>& values, std::size_t first,
+                                          std::size_t step, const MeanRule& rule) {
     const check::ExactVolumes volumes(mesh.dimension, mesh.points);
     core::Unit unit;
-    for (const double x : values) {
-        if (std::isfinite(x)) unit.add(x);
+    for (std::size_t i = first; i < values.size(); i += step) {
+        if (std::isfinite(values[i])) unit.add(values[i]);
     }
     const std::size_t corners = mesh.corners(), mids = mesh.dimension == 2 ? 3 : 6;
     const auto add_cell = [&](std::size_t c, PartialIntegral& part) {
@@ -49,10 +50,11 @@ std::pair<double, std::uint64_t> integral(const Mesh& mesh, const std::vector<do
         bool finite = true;
         const auto add = [&](std::int64_t weight, std::size_t entity) {
             if (weight == 0) return;
-            finite = finite && std::isfinite(values[entity]);
+            const double value = values[first + step * entity];
+            finite = finite && std::isfinite(value);
             if (!finite) return;
             const Integer factor(weight < 0, static_cast<std::uint64_t>(std::abs(weight)), 0);
-            sum = sum + factor * unit.integer(values[entity]);
+            sum = sum + factor * unit.integer(value);
         };
         if (rule.corners == 0) add(1, c);
         for (std::size_t i = 0; i < rule.corners; ++i)
@@ -89,12 +91,10 @@ std::vector<std::size_t> integrate_source(SampledMesh& mesh) {
             return choice.of_cells && choice.steps.empty() && name_of(choice) == field.name;
         });
         for (std::size_t k = 0; chosen != mesh.fields().end() && k < components; ++k) {
-            std::vector<double> values;
-            for (std::size_t i = k; i < chosen->field->data.size(); i += components)
-                values.push_back(chosen->field->data[i]);
             FieldIntegral of;
             of.column = mesh.sampler().columns()[first + k];
-            std::tie(of.source, of.source_left_out) = integral(mesh.mesh(), values, {0, 0, 0, 1});
+            std::tie(of.source, of.source_left_out) =
+                integral(mesh.mesh(), chosen->field->data, k, components, {0, 0, 0, 1});
             mesh.report.integrals.push_back(of);
             columns.push_back(first + k);
         }
@@ -127,7 +127,7 @@ Sink with_integrals(SampledMesh& mesh, const Mesh& other, const std::function<Si
     if (columns.empty()) return open();
     struct Kept {
         Mesh geometry;
-        std::vector<std::vector<double>> values;  ///< of these columns, one a node
+        std::vector<double> values;  ///< of these columns, node after node
         Sink sink;
     };
     const auto kept = std::make_shared<Kept>();
@@ -135,21 +135,19 @@ Sink with_integrals(SampledMesh& mesh, const Mesh& other, const std::function<Si
     kept->geometry.points = other.points;
     kept->geometry.cells = other.cells;
     kept->geometry.mid_nodes = other.mid_nodes;
-    kept->values.resize(columns.size());
     kept->sink = open();
     const auto write = [kept, columns](const TableView& rows) {
         const std::size_t all = rows.row_count() == 0 ? 0 : rows.values.size() / rows.row_count();
         for (std::size_t i = 0; i < rows.row_count(); ++i) {
-            for (std::size_t k = 0; k < columns.size(); ++k)
-                kept->values[k].push_back(rows.values[all * i + columns[k]]);
+            for (const std::size_t column : columns) kept->values.push_back(rows.values[all * i + column]);
         }
         return kept->sink->write(rows);
     };
-    return sink_of(write, [kept, &report = mesh.report] {
-        for (std::size_t k = 0; k < kept->values.size(); ++k) {
+    return sink_of(write, [kept, count = columns.size(), &report = mesh.report] {
+        for (std::size_t k = 0; k < count; ++k) {
             FieldIntegral& of = report.integrals[k];
             std::tie(of.target, of.target_left_out) =
-                integral(kept->geometry, kept->values[k], rule_of_nodes(kept->geometry));
+                integral(kept->geometry, kept->values, k, count, rule_of_nodes(kept->geometry));
         }
         return kept->sink->commit();
     });

@@ -62,10 +62,6 @@ void check_step_outputs(const std::vector<base::NamedFile>& inputs, const std::s
 
 }  // namespace
 
-void tell_stage(const MeshJob& job, const std::string& what, std::uint64_t done) {
-    if (job.progress) job.progress({.stage = what, .done = done});
-}
-
 Mesh open_mesh(const MeshJob& job, int threads, const StepChoice& step, CurvedCells& curved, bool list_grids) {
     tell_stage(job, "reading " + job.mesh);
     const ReadOptions options{
@@ -102,10 +98,6 @@ BuildOptions build_options(const MeshJob& job, int threads, Prove prove) {
             .progress = [&job](const char* stage) { tell_stage(job, stage); }};
 }
 
-Locator build_locator(const MeshJob& job, const Mesh& mesh, int threads, Prove prove) {
-    return Locator::build(mesh, build_options(job, threads, prove)).value();
-}
-
 void tell_once(Notes notes, MeshReport& report) {
     for (Note& note : notes) {
         const auto same = [&](const Note& told) { return told.kind == note.kind && told.text == note.text; };
@@ -113,22 +105,11 @@ void tell_once(Notes notes, MeshReport& report) {
     }
 }
 
-void report_maps(const MeshJob& job, const Locator& locator, MeshReport& report) {
-    report.curved.mapped = locator.has_curved_cells();
-    tell_once(notes_of_maps(locator, job.cell_interpolation, job.mesh), report);
-}
-
 std::vector<base::NamedFile> input_files(const MeshJob& job, const std::vector<base::NamedFile>& more) {
     std::vector<base::NamedFile> inputs = base::named_files("the mesh", mesh_files(job.mesh));
     add_fields_to(inputs, job.field_files);
     for (const base::NamedFile& file : more) add_input(inputs, file.what, file.path);
     return inputs;
-}
-
-void check_outputs(const MeshJob& job, const std::vector<base::NamedFile>& inputs,
-                   std::vector<base::NamedFile> outputs) {
-    for (const auto& [what, path] : job.reports) outputs.push_back({what, path});
-    base::check_outputs(inputs, std::move(outputs)).value();
 }
 
 void check_files(const MeshJob& job, std::vector<base::NamedFile> more_inputs, std::vector<base::NamedFile> outputs,

@@ -64,10 +64,14 @@ struct Step {
 /// not all series have; all steps where there are none, or one output.
 std::vector<Step> find_steps(const SamplingJob& job);
 
-bool has_step_place(const std::string& output);
+inline bool has_step_place(const std::string& output) {
+    return output.find(base::step_place) != std::string::npos || output.find(base::time_place) != std::string::npos;
+}
 std::string output_of_step(const std::string& output, const Step& step);
 
-void tell_stage(const MeshJob& job, const std::string& what, std::uint64_t done = 0);
+inline void tell_stage(const MeshJob& job, const std::string& what, std::uint64_t done = 0) {
+    if (job.progress) job.progress({.stage = what, .done = done});
+}
 
 /// Reads the mesh of the job, and takes its cells as straight, as far as it may: `curved` says which are not.
 Mesh open_mesh(const MeshJob& job, int threads, const StepChoice& step, CurvedCells& curved, bool list_grids = true);
@@ -81,17 +85,25 @@ void report_mesh(const MeshJob& job, const Mesh& mesh, int threads, MeshReport& 
 void tell_once(Notes notes, MeshReport& report);
 
 /// Whether curved cells are taken by their maps; notes where cells are straight or linear though maps are asked for.
-void report_maps(const MeshJob& job, const Locator& locator, MeshReport& report);
+inline void report_maps(const MeshJob& job, const Locator& locator, MeshReport& report) {
+    report.curved.mapped = locator.has_curved_cells();
+    tell_once(notes_of_maps(locator, job.cell_interpolation, job.mesh), report);
+}
 
 BuildOptions build_options(const MeshJob& job, int threads, Prove prove = Prove::at_once);
-Locator build_locator(const MeshJob& job, const Mesh& mesh, int threads, Prove prove = Prove::at_once);
+inline Locator build_locator(const MeshJob& job, const Mesh& mesh, int threads, Prove prove = Prove::at_once) {
+    return Locator::build(mesh, build_options(job, threads, prove)).value();
+}
 
 /// The mesh, the files of fields, and `more`; of VTK's files that name others, those.
 std::vector<base::NamedFile> input_files(const MeshJob& job, const std::vector<base::NamedFile>& more = {});
 
 /// The outputs and the reports of the job, held against the inputs by base::check_outputs.
-void check_outputs(const MeshJob& job, const std::vector<base::NamedFile>& inputs,
-                   std::vector<base::NamedFile> outputs);
+inline void check_outputs(const MeshJob& job, const std::vector<base::NamedFile>& inputs,
+                          std::vector<base::NamedFile> outputs) {
+    for (const auto& [what, path] : job.reports) outputs.push_back({what, path});
+    base::check_outputs(inputs, std::move(outputs)).value();
+}
 
 /// What can be known of files before the work: of a job with those outputs and, besides the mesh and fields, those
 /// inputs; `unread`: inputs, too, but who reads them tells what is wrong. Refused: an output that is an input or

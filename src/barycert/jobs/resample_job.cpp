@@ -308,8 +308,7 @@ void onto_grid(SampledMesh& mesh, const ResampleJob& job, const std::string& pat
     const auto sink = [&](const TableView& rows) -> Status {
         const auto outside = none_outside ? std::find(rows.cells.begin(), rows.cells.end(), -1) : rows.cells.end();
         if (outside != rows.cells.end()) {
-            const std::uint64_t i =
-                rows.first_row + static_cast<std::uint64_t>(std::distance(rows.cells.begin(), outside));
+            const std::uint64_t i = rows.first_row + static_cast<std::uint64_t>(outside - rows.cells.begin());
             const std::array<double, 3> at = point_of(grid, i);
             return jobs::outside_error("point " + std::to_string(i) + " of the grid",
                                        std::span(at).first(static_cast<std::size_t>(grid.dimension)), "");

@@ -99,7 +99,7 @@ void at_points(SampledMesh& mesh, const SampleJob& job) {
     report.all = job.all.value_or(false);
     jobs::RowSource rows = jobs::rows_of_points(points);
     rows.begin_again = [&](const SampledMesh&) {
-        if (jobs::is_read_once(job.points))
+        if (io::is_read_once(job.points))
             refuse(job.points, "the mesh changes from step to step, and points of a pipe can be read once", "", "",
                    "save the points to a file, or choose one step: job.step N");
         points = open();

@@ -20,13 +20,12 @@ namespace {
 using sample::gives_distances;
 
 std::uint64_t count_degenerate(const Mesh& mesh) {
-    const auto is_degenerate = [&](std::size_t cell) {
-        return surface::orientation(mesh, mesh.cells.data() + mesh.corners() * cell) == Sign::zero;
-    };
     return base::parallel_reduce(
         mesh.cell_count(), 1 << 14, std::uint64_t{0},
         [&](std::size_t begin, std::size_t end, std::uint64_t& count) {
-            for (std::size_t c = begin; c != end; ++c) count += is_degenerate(c) ? 1 : 0;
+            for (std::size_t c = begin; c != end; ++c) {
+                if (surface::orientation(mesh, mesh.cells.data() + mesh.corners() * c) == Sign::zero) ++count;
+            }
         },
         [](std::uint64_t& all, std::uint64_t part) { all += part; });
 }
@@ -240,11 +239,6 @@ void SampledMesh::build(const Mesh& mesh, const std::vector<FieldChoice>& fields
     report.seconds.build += watch.lap();
 }
 
-void SampledMesh::build_sampler(const std::vector<FieldChoice>& fields) {
-    sampler_ = Sampler::build(*locator_, fields).value();
-    report.columns = sampler_->columns();
-}
-
 std::vector<FieldChoice> SampledMesh::fields_of_part() {
     std::vector<FieldChoice> fields = fields_;
     for (FieldChoice& choice : fields)
@@ -309,27 +303,6 @@ void SampledMesh::let_go_of_mesh() {
     mesh_.cells = std::vector<Mesh::Index>();
     mesh_.point_markers = std::vector<std::int64_t>();
     for (Field& field : mesh_.point_fields) field.data = std::vector<double>();
-}
-
-NodeWeights SampledMesh::weights_of(const TableView& rows) const {
-    NodeWeights weights = node_weights(*locator_, rows, job.options.outside).value();
-    // Nodes of a part are in the order of the mesh.
-    if (!part_) return weights;
-    for (Mesh::Index& node : weights.nodes) node = part_->nodes[static_cast<std::size_t>(node)];
-    return weights;
-}
-
-void SampledMesh::name_cells(Table& rows) const {
-    if (!part_) return;
-    for (Mesh::Index& cell : rows.cells) {
-        if (cell >= 0) cell = part_->cells[static_cast<std::size_t>(cell)];
-    }
-}
-
-void SampledMesh::prepare_without_search(FoundBy method, const std::string& reason) {
-    report.method = method;
-    report.reason = reason;
-    build(mesh_, fields_, Prove::never);
 }
 
 }  // namespace barycert::jobs

@@ -48,7 +48,11 @@ public:
     void prepare(std::span<const double> all_points = {});
 
     /// Prepares where no owner is asked of a point alone: they are known, or the cells find their points.
-    void prepare_without_search(FoundBy method, const std::string& reason);
+    void prepare_without_search(FoundBy method, const std::string& reason) {
+        report.method = method;
+        report.reason = reason;
+        build(mesh_, fields_, Prove::never);
+    }
 
     /// Precondition: prepared.
     const Locator& locator() const { return *locator_; }
@@ -76,10 +80,21 @@ public:
     void let_go_of_mesh();
 
     /// The weights of rows as the locator names their cells, on the nodes of the mesh. Not after let_go_of_mesh().
-    NodeWeights weights_of(const TableView& rows) const;
+    NodeWeights weights_of(const TableView& rows) const {
+        NodeWeights weights = node_weights(*locator_, rows, job.options.outside).value();
+        // Nodes of a part are in the order of the mesh.
+        if (!part_) return weights;
+        for (Mesh::Index& node : weights.nodes) node = part_->nodes[static_cast<std::size_t>(node)];
+        return weights;
+    }
 
     /// Sampled rows name cells as the locator counts them; afterwards, as the mesh does.
-    void name_cells(Table& rows) const;
+    void name_cells(Table& rows) const {
+        if (!part_) return;
+        for (Mesh::Index& cell : rows.cells) {
+            if (cell >= 0) cell = part_->cells[static_cast<std::size_t>(cell)];
+        }
+    }
 
     /// What the rows of this job have, without labels.
     TableFormat format() const;
@@ -104,7 +119,10 @@ private:
     /// Whether cells may have maps (BuildOptions).
     bool may_be_mapped() const;
     std::optional<std::vector<Mesh::Index>> cells_near(std::span<const double> points);
-    void build_sampler(const std::vector<FieldChoice>& fields);
+    void build_sampler(const std::vector<FieldChoice>& fields) {
+        sampler_ = Sampler::build(*locator_, fields).value();
+        report.columns = sampler_->columns();
+    }
     void build(const Mesh& mesh, const std::vector<FieldChoice>& fields, Prove prove);
 
     const bool list_grids_;

@@ -14,32 +14,20 @@ namespace {
 
 using base::step_place, base::time_place;
 
-bool is_digit(char c) {
-    return c >= '0' && c <= '9';
-}
-
-/// Runs of digits by their value, all else by its bytes; texts that differ in leading zeros alone by length.
-bool naturally_before(std::string_view a, std::string_view b) {
-    std::size_t i = 0, k = 0;
-    while (i < a.size() && k < b.size()) {
-        if (!is_digit(a[i]) || !is_digit(b[k])) {
-            if (a[i] != b[k]) return a[i] < b[k];
-            ++i;
-            ++k;
+/// Sorts runs of digits by their value, all else by its bytes; texts that differ in leading zeros alone by length.
+auto natural_order(const std::string& text) {
+    std::vector<std::tuple<char, std::size_t, std::string>> parts;  // any digit, and the length of the number and it
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t end = std::min(text.find_first_not_of("0123456789", at), text.size());
+        if (end == at) {
+            parts.emplace_back(text[at++], 0, "");
             continue;
         }
-        const auto number = [](std::string_view text, std::size_t& at) {
-            while (at < text.size() && text[at] == '0') ++at;
-            const std::size_t begin = at;
-            while (at < text.size() && is_digit(text[at])) ++at;
-            return text.substr(begin, at - begin);
-        };
-        const std::string_view x = number(a, i), y = number(b, k);
-        if (x.size() != y.size()) return x.size() < y.size();
-        if (x != y) return x < y;
+        const std::size_t begin = std::min(text.find_first_not_of('0', at), end);
+        parts.emplace_back('0', end - begin, text.substr(begin, end - begin));
+        at = end;
     }
-    if (i < a.size() || k < b.size()) return k < b.size();
-    return a.size() != b.size() ? a.size() < b.size() : a < b;
+    return std::tuple(std::move(parts), text.size(), text);
 }
 
 /// The step of one series. The array has the name of the field, unless another one is given.
@@ -108,7 +96,7 @@ std::vector<Step> matches_of(const FieldFile& series) {
     if (found.empty() || failed)
         refuse(pattern, "no file of the series \"" + series.name + '"', "at least one file for the pattern",
                failed ? failed.message() : "none", "check the folder and the pattern");
-    std::ranges::sort(found, naturally_before, &Step::label);
+    std::ranges::sort(found, {}, [](const Step& step) { return natural_order(step.label); });
     return found;
 }
 
@@ -182,10 +170,6 @@ std::vector<Step> find_steps(const SamplingJob& job) {
         steps.push_back({.label = std::to_string(i), .time = base::shortest(all[i].time), .of_mesh = i});
     }
     return steps;
-}
-
-bool has_step_place(const std::string& output) {
-    return output.find(step_place) != std::string::npos || output.find(time_place) != std::string::npos;
 }
 
 std::string output_of_step(const std::string& output, const Step& step) {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <set>
 
 #include "barycert/io/npz/weights_file.hpp"
@@ -14,8 +13,6 @@
 
 namespace barycert::jobs {
 namespace {
-
-namespace fs = std::filesystem;
 
 /// Rows whose owners are known, to be sampled again: 29 bytes a row in 3D. Cells are those of the locator.
 RowSource rows_again(const std::vector<Table>& known) {
@@ -161,11 +158,6 @@ RowSource rows_of_points(std::unique_ptr<PointSource>& points) {
     return {.count = points->count(), .read = read};
 }
 
-bool is_read_once(const std::string& path) {
-    std::error_code ignored;
-    return path == "-" || (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored));
-}
-
 void sample_rows(SampledMesh& mesh, const RowSource& source, const OpenRows& open, const std::string& map) {
     const bool further = mesh.has_further_steps();
     const std::string& weights = mesh.job.weights;
@@ -184,17 +176,6 @@ void sample_rows(SampledMesh& mesh, const RowSource& source, const OpenRows& ope
     });
 }
 
-SampleOptions without_refusal(SampleOptions options) {
-    if (options.outside.kind == Outside::error) options.outside = {};
-    return options;
-}
-
-Error outside_error(const std::string& what, std::span<const double> where, const std::string& file) {
-    return file_error(file, what + ", counted from 0, is outside the mesh", "",
-                      "(" + base::joined(where, ", ", base::shortest) + ")",
-                      "choose what points outside get: job.outside nan, fill=V, nearest or extrapolate");
-}
-
 std::uint64_t count_nan(const TableView& rows) {
     if (rows.row_count() == 0 || base::all_finite(rows.values)) return 0;
     const std::size_t columns = rows.values.size() / rows.row_count();
@@ -204,11 +185,6 @@ std::uint64_t count_nan(const TableView& rows) {
         for (std::size_t c = 0; c < columns; ++c) count += std::isnan(rows.values[columns * i + c]) ? 1 : 0;
     }
     return count;
-}
-
-void refuse_kept(const std::string& name) {
-    refuse("", "a column to keep has the name of another column of the rows", "", base::quoted(name),
-           "name the columns to keep, with another name for this one: job.keep OTHER=" + base::printable(name));
 }
 
 Sink open_user_rows(SampledMesh& mesh, const std::vector<ColumnFormat>& carried, bool all, const OpenFormat& open) {

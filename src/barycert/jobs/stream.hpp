@@ -32,8 +32,6 @@ struct RowSource {
 /// Points that are to be located, to be read once. They must stay.
 RowSource rows_of_points(std::unique_ptr<PointSource>& points);
 
-bool is_read_once(const std::string& path);
-
 /// The rows of a source, which must stay, in blocks: few enough that all `threads` (0: as many as the machine has) have
 /// some, and enough points that sorting them brings near ones together. `seconds` gets those of reading and work.
 class Blocks {
@@ -44,7 +42,10 @@ public:
         : source_(source), threads_(threads), seconds_(seconds) {}
 
     /// Reads the first block, with which run() will begin.
-    Block& first();
+    Block& first() {
+        read(first_.emplace());
+        return *first_;
+    }
 
     bool have_more() const { return more_; }
 
@@ -82,7 +83,10 @@ void sample_rows(SampledMesh& mesh, const RowSource& source, const OpenRows& ope
 using OpenFormat = std::function<Sink(const TableFormat& format)>;
 
 /// A column of the points that the rows cannot have, too.
-[[noreturn]] void refuse_kept(const std::string& name);
+[[noreturn]] inline void refuse_kept(const std::string& name) {
+    refuse("", "a column to keep has the name of another column of the rows", "", base::quoted(name),
+           "name the columns to keep, with another name for this one: job.keep OTHER=" + base::printable(name));
+}
 
 /// Opens an output by open(format of its rows) and returns what takes rows whose cells are those of the mesh, and gives
 /// it what users are to see: cells by their numbers in the file, labels that the job asked for, and `carried` columns
@@ -116,10 +120,17 @@ Sink changed(std::shared_ptr<TableSink> sink, Change change) {
 Sink open_rows(const std::string& path, const TableFormat& format);
 
 /// The policy `error` is looked at where the point and its file are known: options without it.
-SampleOptions without_refusal(SampleOptions options);
+inline SampleOptions without_refusal(SampleOptions options) {
+    if (options.outside.kind == Outside::error) options.outside = {};
+    return options;
+}
 
 /// That `what` ("point 7"), at `where`, is outside, and none may be.
-Error outside_error(const std::string& what, std::span<const double> where, const std::string& file);
+inline Error outside_error(const std::string& what, std::span<const double> where, const std::string& file) {
+    return file_error(file, what + ", counted from 0, is outside the mesh", "",
+                      "(" + base::joined(where, ", ", base::shortest) + ")",
+                      "choose what points outside get: job.outside nan, fill=V, nearest or extrapolate");
+}
 
 std::uint64_t count_nan(const TableView& rows);
 

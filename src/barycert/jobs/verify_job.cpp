@@ -8,6 +8,7 @@
 
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/environment.hpp"
+#include "barycert/io/formats.hpp"
 #include "barycert/jobs/claimed_columns.hpp"
 #include "barycert/jobs/stream.hpp"
 #include "barycert/sample/quantity/quantities.hpp"
@@ -33,9 +34,7 @@ bool are_floats(const Claims& claims) {
 }
 
 bool has_digits(double x, int digits) {
-    std::array<char, 32> text{};
-    const auto end = std::to_chars(text.data(), text.data() + text.size(), x, std::chars_format::general, digits).ptr;
-    return base::parse_double({text.data(), end}) == x;
+    return base::parse_double(fmt::format("{:.{}g}", x, digits)) == x;
 }
 
 /// Were the numbers written with six digits, as printf and streams do unless told otherwise?
@@ -99,7 +98,7 @@ private:
         open();
         columns_ = jobs::claimed_columns(job_, mesh_, fields, source_->carried(), report_.notes);
         options.keep = columns_.names();
-        if (!jobs::is_read_once(job_.results)) open();
+        if (!io::is_read_once(job_.results)) open();
     }
 
     void build() {
@@ -238,17 +237,6 @@ Result<VerifyLimit> parse_verify_limit(std::string_view text) {
     }
     return file_error("", "unknown rule", "missed, invented, wrong_cell or wrong_value, perhaps >COUNT",
                       '"' + std::string(text) + '"', base::did_you_mean(limit.name, names));
-}
-
-bool VerifyReport::compared(RowVerdict verdict) const {
-    if (verdict == RowVerdict::wrong_cell) return !cell_column.empty();
-    return verdict != RowVerdict::wrong_value || !columns.empty();
-}
-
-std::vector<VerifyLimit> VerifyReport::exceeded() const {
-    std::vector<VerifyLimit> all = limits;
-    std::erase_if(all, [&](const VerifyLimit& l) { return verdicts.of(l.verdict) <= l.most; });
-    return all;
 }
 
 }  // namespace barycert

@@ -104,14 +104,8 @@ struct ValueScale {
     bool known() const { return !std::isnan(low); }
 
     double operator()(double x) const {
-        if (low == high) return x < low ? 0 : x > low ? 1 : 0.5;
-        double over = x - low, whole = high - low;
-        if (!std::isfinite(whole) || !std::isfinite(over)) {  // too large a difference: of halves there is one
-            over = 0.5 * x - 0.5 * low;
-            whole = 0.5 * high - 0.5 * low;
-        }
         constexpr double far = 0x1p40;  // beyond the range a texture goes on with its rim
-        return std::clamp(over / whole, -far, far);
+        return std::clamp(io::place_in_range(x, low, high), -far, far);
     }
 };
 

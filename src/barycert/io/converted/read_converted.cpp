@@ -75,8 +75,7 @@ struct Process {
         if (id < 0) return 0;
         ::kill(-id, SIGKILL);
         int status = 0;
-        while (::waitpid(id, &status, 0) < 0 && errno == EINTR) {
-        }
+        (void)TEMP_FAILURE_RETRY(::waitpid(id, &status, 0));
         id = -1;
         return status;
     }

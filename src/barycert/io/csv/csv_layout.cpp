@@ -1,5 +1,7 @@
 #include "barycert/io/csv/csv_layout.hpp"
 
+#include <fmt/format.h>
+
 #include <iterator>
 #include <limits>
 
@@ -48,10 +50,7 @@ bool is_rounded(std::string_view text, double value) {
     const std::string digits = digits_of(text);
     if (digits.empty() || (normal && digits.size() <= held)) return false;
     if (digits.size() > most) return true;
-    std::array<char, 800> nearest{};
-    const auto [end, error] = std::to_chars(nearest.data(), nearest.data() + nearest.size(), value,
-                                            std::chars_format::scientific, static_cast<int>(digits.size()) - 1);
-    return digits_of({nearest.data(), static_cast<std::size_t>(end - nearest.data())}) != digits;
+    return digits_of(fmt::format("{:.{}e}", value, digits.size() - 1)) != digits;
 }
 
 }  // namespace
@@ -69,12 +68,6 @@ bool looks_numeric(std::string_view field) {
     if (field.starts_with('+') || field.starts_with('-')) field.remove_prefix(1);
     if (field.starts_with('.')) field.remove_prefix(1);
     return !field.empty() && barycert::io::is_digit(field.front());
-}
-
-bool holds_fields(std::string_view line, char separator) {
-    const std::size_t at = line.find_first_not_of(" \t");
-    if (at == std::string_view::npos) return separator == '\t' && line.find('\t') != std::string_view::npos;
-    return line[at] != '#';
 }
 
 CsvLine cut_first_line(std::string_view line, const LinePlace& place) {
@@ -148,10 +141,7 @@ bool is_inexact(std::string_view text, double value) {
     if (text.find_first_not_of("0123456789") != std::string_view::npos) return false;
     text.remove_prefix(std::min(text.find_first_not_of('0'), text.size()));
     // Every double from 2^53 on is an integer: the same one if it has the same digits.
-    std::array<char, 512> digits{};
-    const auto [end, error] =
-        std::to_chars(digits.data(), digits.data() + digits.size(), std::fabs(value), std::chars_format::fixed, 0);
-    return std::string_view(digits.data(), static_cast<std::size_t>(end - digits.data())) != text;
+    return fmt::format("{:.0f}", std::fabs(value)) != text;
 }
 
 void TypeOfTexts::see(std::string_view text) {
@@ -167,11 +157,6 @@ void TypeOfTexts::see(std::string_view text) {
     numbers = value.has_value();
     if (!numbers || !is_rounded(text, *value)) return;
     (*value == 0 ? lost : rounded) = true;
-}
-
-Column::Type TypeOfTexts::type() const {
-    if (any && integers && !empty) return Column::Type::integer;
-    return any && numbers ? Column::Type::number : Column::Type::text;
 }
 
 }  // namespace barycert::io

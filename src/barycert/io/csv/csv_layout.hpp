@@ -102,7 +102,11 @@ struct LinePlace {
 };
 
 /// Not blank and no comment. With tabs as separator a line of tabs is a row without values, and so not blank.
-bool holds_fields(std::string_view line, char separator);
+inline bool holds_fields(std::string_view line, char separator) {
+    const std::size_t at = line.find_first_not_of(" \t");
+    if (at == std::string_view::npos) return separator == '\t' && line.find('\t') != std::string_view::npos;
+    return line[at] != '#';
+}
 
 struct CsvLine {
     char separator = ',';
@@ -116,7 +120,9 @@ bool looks_numeric(std::string_view field);
 /// From the first line that holds fields. Carried columns are texts.
 CsvLayout settle_csv_layout(std::string_view line, int dimension, const PointOptions& options, const LinePlace& place);
 
-std::string separator_name(char separator);
+inline std::string separator_name(char separator) {
+    return separator == ',' ? "commas" : separator == ';' ? "semicolons" : separator == '\t' ? "tabs" : "blanks";
+}
 
 /// Refuses a line with `count` fields if the layout has not as many, and one with a quote that is not closed.
 void check_cut(const FieldCutter& cutter, std::string_view line, std::size_t count, const CsvLayout& layout,
@@ -152,7 +158,10 @@ struct TypeOfTexts {
     void see(std::string_view text);
 
     /// Text, too, where there was none but empty ones.
-    Column::Type type() const;
+    Column::Type type() const {
+        if (any && integers && !empty) return Column::Type::integer;
+        return any && numbers ? Column::Type::number : Column::Type::text;
+    }
 };
 
 }  // namespace barycert::io

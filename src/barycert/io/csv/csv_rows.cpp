@@ -19,17 +19,15 @@ namespace {
 
 /// Appends the value of a carried column; false if it is none of its type.
 bool append_value(Column& column, const FieldCutter& cutter, std::string_view field) {
-    if (auto* const texts = std::get_if<std::vector<std::string>>(&column.values)) {
-        texts->push_back(cutter.text(field));
-        return true;
-    }
-    const auto append = [](auto& values, const auto& value) {
-        if (value) values.push_back(*value);
+    const auto append = [&]<class T>(std::vector<T>& values) {
+        std::optional<T> value;
+        if constexpr (std::is_same_v<T, std::string>) value = cutter.text(field);
+        if constexpr (std::is_same_v<T, std::int64_t>) value = integer_of(field);
+        if constexpr (std::is_same_v<T, double>) value = number_of(field);
+        if (value) values.push_back(std::move(*value));
         return value.has_value();
     };
-    auto* const integers = std::get_if<std::vector<std::int64_t>>(&column.values);
-    return integers != nullptr ? append(*integers, integer_of(field))
-                               : append(std::get<std::vector<double>>(column.values), number_of(field));
+    return std::visit(append, column.values);
 }
 
 /// Beside a mesh in the plane. A point that is not finite anyway may lie anywhere.
@@ -93,10 +91,6 @@ bool parse_plain(std::string_view line, const CsvLayout& layout, std::array<doub
 }
 
 }  // namespace
-
-std::string separator_name(char separator) {
-    return separator == ',' ? "commas" : separator == ';' ? "semicolons" : separator == '\t' ? "tabs" : "blanks";
-}
 
 void check_cut(const FieldCutter& cutter, std::string_view line, std::size_t count, const CsvLayout& layout,
                const LinePlace& place) {

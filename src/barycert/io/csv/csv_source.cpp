@@ -1,8 +1,6 @@
 // Points from CSV: lines are read by the megabyte, cut into pieces at line ends and parsed on all threads. Pieces are
 // looked at in their order, so points and errors do not depend on the number of threads.
 
-#include <filesystem>
-
 #include "barycert/io/csv/csv_layout.hpp"
 #include "barycert/io/csv/line_reader.hpp"
 #include "barycert/io/formats.hpp"
@@ -146,8 +144,7 @@ std::vector<ColumnFormat> formats_of_all(CsvSource source, const std::string& pa
 
 Source open_csv_source(const std::string& path, int dimension, const PointOptions& options) {
     if (!options.typed || options.keep.empty()) return std::make_unique<CsvSource>(path, dimension, options);
-    std::error_code ignored;
-    if (path == "-" || (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored)))
+    if (is_read_once(path))
         refuse_file(path == "-" ? "standard input" : path, "the types of columns cannot be found in a stream",
                     "a regular file, which can be read twice", "a pipe or device",
                     "write CSV, which carries columns as they are, or save the points to a file first");

@@ -111,18 +111,18 @@ Field read_text(Field field, const std::string& path, std::string_view bytes) {
     return field;
 }
 
-std::vector<std::size_t> components_of(const NpyTable& table, const Field& field, const std::string& path,
-                                       const std::string& column) {
+std::vector<std::size_t> components_of(const NpyTable& table, bool structured, const Field& field,
+                                       const std::string& path, const std::string& column) {
     std::vector<std::string> names;
     for (const NpyColumn& c : table.columns) names.push_back(c.name);
     std::vector<std::size_t> columns;
     if (!column.empty())
-        columns = columns_of_field(names, place_of(column) && !table.structured ? "column" + column : column);
-    for (std::size_t c = 0; column.empty() && !table.structured && c < names.size(); ++c) columns.push_back(c);
+        columns = columns_of_field(names, place_of(column) && !structured ? "column" + column : column);
+    for (std::size_t c = 0; column.empty() && !structured && c < names.size(); ++c) columns.push_back(c);
     if (!columns.empty()) return columns;
     refuse_file(path, column.empty() ? "the type of field \"" + field.name + '"' : "no such column",
                 column.empty() ? "an array of numbers" : base::quoted(column),
-                table.structured && column.empty() ? "a structured array of " + listed(names) : listed(names),
+                structured && column.empty() ? "a structured array of " + listed(names) : listed(names),
                 base::did_you_mean(column, names, "name one of them: --field " + field.name + "=" + path + ":NAME"));
 }
 
@@ -135,7 +135,7 @@ Field read_npy(Field field, const std::string& path, const std::string& column, 
         refuse_file(path, "the shape of field \"" + field.name + '"', "(rows,) or (rows, components)", as_tuple(shape),
                     "save a.reshape(len(a), -1)");
     const NpyTable& table = file.make_table();
-    const std::vector<std::size_t> columns = components_of(table, field, path, column);
+    const std::vector<std::size_t> columns = components_of(table, file.header().structured, field, path, column);
     for (const std::size_t c : columns) {
         const NpyType& type = table.columns[c].type;
         if (!type.is_number())

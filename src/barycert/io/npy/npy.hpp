@@ -68,8 +68,7 @@ struct NpyTable {
     std::uint64_t rows = 0;
     std::vector<NpyColumn> columns;
     std::size_t row_size = 0;  ///< bytes
-    bool structured = false;
-    bool by_columns = false;  ///< one column after the other, not row after row
+    bool by_columns = false;   ///< one column after the other, not row after row
 };
 
 /// The rows are read by blocks and not mapped: memory is bounded, and a file that shrinks meanwhile is told.
@@ -83,7 +82,9 @@ public:
     const NpyTable& make_table();
 
     /// How many rows of the table are read at once: some hundred kilobytes, or one.
-    std::size_t rows_at_once() const;
+    std::size_t rows_at_once() const {
+        return std::max<std::size_t>(1, (std::size_t{1} << 18) / std::max<std::size_t>(1, table_.row_size));
+    }
 
     /// Reads `count` rows from row `first` on; of a table by columns nothing, yet.
     void go_to(std::uint64_t first, std::size_t count);

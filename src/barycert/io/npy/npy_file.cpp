@@ -6,8 +6,6 @@
 namespace barycert::io {
 namespace {
 
-constexpr std::size_t bytes_at_once = std::size_t{1} << 18;
-
 /// Sign, 5 bits of exponent, 10 of fraction.
 double half(std::uint16_t bits) {
     const auto fraction = static_cast<double>(bits & 0x3FFU);
@@ -80,14 +78,13 @@ void make_simple(const NpyHeader& header, const std::string& file, NpyTable& tab
 /// `room`: the bytes after the header.
 void check_room(const NpyTable& table, std::uint64_t room, const std::string& file) {
     const std::uint64_t row = table.row_size;
-    const bool too_few = row != 0 && table.rows > room / row;
-    if (!too_few && table.rows * row == room) return;
-    if (too_few)
+    if (row != 0 && table.rows > room / row)
         refuse_file(file, "the file ends too early",
                     std::to_string(table.rows) + " rows of " + std::to_string(row) + " bytes, as its header tells",
                     std::to_string(room) + " bytes", "the file may be cut short: write it again");
-    refuse_file(file, "bytes after the array", std::to_string(table.rows * row) + ", as the header tells",
-                std::to_string(room), "save one array a file");
+    if (table.rows * row != room)
+        refuse_file(file, "bytes after the array", std::to_string(table.rows * row) + ", as the header tells",
+                    std::to_string(room), "save one array a file");
 }
 
 }  // namespace
@@ -143,7 +140,6 @@ const NpyTable& NpyFile::make_table() {
     if (shape.empty() || shape.size() > (header_.structured ? 1U : 2U))
         refuse_file(path_, "an array of another shape", header_.structured ? "(n,)" : "(n, columns)", as_tuple(shape),
                     "save an array with a row for each point");
-    table_.structured = header_.structured;
     table_.rows = shape[0];
     if (header_.structured) {
         table_.columns = header_.fields;
@@ -154,10 +150,6 @@ const NpyTable& NpyFile::make_table() {
     }
     check_room(table_, file_.size() - header_.size, path_);
     return table_;
-}
-
-std::size_t NpyFile::rows_at_once() const {
-    return std::max<std::size_t>(1, bytes_at_once / std::max<std::size_t>(1, table_.row_size));
 }
 
 void NpyFile::go_to(std::uint64_t first, std::size_t count) {

@@ -161,38 +161,7 @@ bool take_fields(const Literal& list, std::vector<NpyColumn>& columns, std::uint
     return true;
 }
 
-/// Where the text of a header begins, how many bytes it has, and whether it is Latin-1; else it is UTF-8.
-struct NpyText {
-    std::size_t offset = 0, size = 0;
-    bool latin1 = false;
-};
-
-/// From the first bytes of the file: 6 of magic, 2 of version, then the length of the text in 2 or 4.
-constexpr std::size_t npy_head = 12;
-NpyText find_npy_text(std::string_view head, const std::string& file) {
-    if (head.starts_with("PK\x03\x04"))
-        not_npy(file, "one array", "a ZIP archive, as numpy.savez writes it",
-                "save the one array of points with numpy.save");
-    if (!head.starts_with(npy_magic))
-        not_npy(file, "a file that begins with \\x93NUMPY",
-                head.empty() ? "nothing" : base::quoted(head.substr(0, npy_magic.size())));
-    const auto need = [&](std::size_t size) {
-        if (head.size() < size) not_npy(file, "a whole header", "the end of the file");
-    };
-    need(10);
-    const auto byte = [&](std::size_t i) { return static_cast<std::size_t>(static_cast<unsigned char>(head[i])); };
-    const std::size_t major = byte(6);
-    if (major < 1 || major > 3)
-        not_npy(file, "version 1, 2 or 3", "version " + std::to_string(major) + "." + std::to_string(byte(7)));
-    NpyText text{.offset = major == 1 ? 10 : npy_head, .latin1 = major != 3};
-    need(text.offset);
-    for (std::size_t i = text.offset; i-- > 8;) text.size = text.size << 8 | byte(i);
-    if (text.size > longest_npy_text)
-        not_npy(file, "a header of at most " + std::to_string(longest_npy_text) + " bytes", std::to_string(text.size));
-    return text;
-}
-
-/// From the text of the header, a Python dictionary of descr, fortran_order and shape.
+/// From the text of the header, in Latin-1 or UTF-8: a Python dictionary of descr, fortran_order and shape.
 NpyHeader parse_npy_text(std::string_view text, bool latin1, const std::string& file) {
     std::string utf8;
     for (const char byte : text) append_utf8(utf8, static_cast<unsigned char>(byte));
@@ -237,16 +206,36 @@ NpyHeader parse_npy_text(std::string_view text, bool latin1, const std::string& 
 }  // namespace
 
 NpyHeader read_npy_header(const base::InputFile& file, const std::string& path) {
-    std::string bytes(npy_head, '\0');
-    bytes.resize(file.read_at(0, bytes, path).value());
-    const NpyText text = find_npy_text(bytes, path);
-    const std::size_t size = text.offset + text.size;
+    // 6 bytes of magic, 2 of version, then the length of the text in 2 or 4.
+    std::string head(12, '\0');
+    head.resize(file.read_at(0, head, path).value());
+    if (head.starts_with("PK\x03\x04"))
+        not_npy(path, "one array", "a ZIP archive, as numpy.savez writes it",
+                "save the one array of points with numpy.save");
+    if (!head.starts_with(npy_magic))
+        not_npy(path, "a file that begins with \\x93NUMPY",
+                head.empty() ? "nothing" : base::quoted(head.substr(0, npy_magic.size())));
+    const auto need = [&](std::size_t size) {
+        if (head.size() < size) not_npy(path, "a whole header", "the end of the file");
+    };
+    need(10);
+    const auto byte = [&](std::size_t i) { return static_cast<std::size_t>(static_cast<unsigned char>(head[i])); };
+    const std::size_t major = byte(6);
+    if (major < 1 || major > 3)
+        not_npy(path, "version 1, 2 or 3", "version " + std::to_string(major) + "." + std::to_string(byte(7)));
+    const std::size_t offset = major == 1 ? 10 : 12;
+    need(offset);
+    std::size_t length = 0;
+    for (std::size_t i = offset; i-- > 8;) length = length << 8 | byte(i);
+    if (length > longest_npy_text)
+        not_npy(path, "a header of at most " + std::to_string(longest_npy_text) + " bytes", std::to_string(length));
+    const std::size_t size = offset + length;
     if (size > file.size())
         refuse_file(path, "the file ends too early", "a header of " + std::to_string(size) + " bytes",
                     std::to_string(file.size()), "the file may be cut short: write it again");
-    bytes.resize(text.size);
-    bytes.resize(file.read_at(text.offset, bytes, path).value());
-    NpyHeader header = parse_npy_text(bytes, text.latin1, path);
+    std::string text(length, '\0');
+    text.resize(file.read_at(offset, text, path).value());
+    NpyHeader header = parse_npy_text(text, major != 3, path);
     header.size = size;
     return header;
 }

@@ -18,7 +18,7 @@ public:
         if (!file_.header().structured && options.columns.empty()) check_shape();
         const NpyTable& table = file_.make_table();
         rows_ = table.rows;
-        TableColumns all{.names = {}, .named = table.structured, .file = path_};
+        TableColumns all{.names = {}, .named = file_.header().structured, .file = path_};
         for (const NpyColumn& column : table.columns) all.names.push_back(column.name);
         PointColumns columns = choose_columns(all, dimension, options);
         notes_ = std::move(columns.notes);
@@ -38,7 +38,7 @@ public:
             notes_.push_back({Note::Kind::converted, "coordinates of type " + widened + " to double, exactly", path_});
         for (PointColumns::Kept& kept : columns.kept) keep(table.columns[kept.column], std::move(kept.name));
         const NpyType& type = axes_.front().type;
-        as_in_memory_ = !table.structured && !table.by_columns && kept_.empty() && type.is_double() && !type.swapped &&
+        as_in_memory_ = !all.named && !table.by_columns && kept_.empty() && type.is_double() && !type.swapped &&
                         table.columns.size() == dimension_;
         for (std::size_t i = 0; i < places.size(); ++i) as_in_memory_ = as_in_memory_ && places[i] == i;
     }

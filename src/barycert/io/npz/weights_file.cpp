@@ -21,24 +21,21 @@ constexpr unsigned zip64_field = 0x0001, padding_field = 0xd935;  // the latter:
 constexpr unsigned zip_date = 0x21;                               // 1 January 1980: files depend on their content alone
 
 /// Little-endian numbers in a row.
-class Bytes {
-public:
+struct Bytes {
+    std::string all;
+
     Bytes& two(std::uint64_t x) { return put(x, 2); }
     /// A larger number is the limit, which says that it stands in a ZIP64 field.
     Bytes& four(std::uint64_t x) { return put(std::min(x, zip_limit), 4); }
     Bytes& eight(std::uint64_t x) { return put(x, 8); }
     Bytes& text(std::string_view text) {
-        bytes_ += text;
+        all += text;
         return *this;
     }
-    const std::string& all() const { return bytes_; }
-
-private:
     Bytes& put(std::uint64_t x, int size) {
-        for (int i = 0; i < size; ++i) bytes_ += static_cast<char>(x >> 8 * i & 0xff);
+        for (int i = 0; i < size; ++i) all += static_cast<char>(x >> 8 * i & 0xff);
         return *this;
     }
-    std::string bytes_;
 };
 
 static_assert(std::endian::native == std::endian::little, "NPY files are written as numbers stand in memory");
@@ -123,7 +120,7 @@ public:
             b.four(0x07064b50).four(0).eight(end).four(1);
         }
         b.four(0x06054b50).two(0).two(0).two(count).two(count).four(end - begin).four(begin).two(0);
-        put(b.all());
+        put(b.all);
         return file_.commit();
     }
 
@@ -146,21 +143,21 @@ private:
         b.four(0x04034b50).two(large ? zip64_version : zip_version).two(0).two(0).two(0).two(zip_date);
         b.four(m.checksum).four(m.size).four(m.size).two(m.name.size()).two(20).text(m.name);
         b.two(large ? zip64_field : padding_field).two(16).eight(large ? m.size : 0).eight(large ? m.size : 0);
-        return b.all();
+        return b.all;
     }
 
     static std::string central_header(const Member& m) {
         Bytes field;
         if (m.size >= zip_limit) field.eight(m.size).eight(m.size);
         if (m.offset >= zip_limit) field.eight(m.offset);
-        const std::size_t extra = field.all().empty() ? 0 : 4 + field.all().size();
+        const std::size_t extra = field.all.empty() ? 0 : 4 + field.all.size();
         const unsigned version = extra == 0 ? zip_version : zip64_version;
         Bytes b;
         b.four(0x02014b50).two(3U << 8 | version).two(version).two(0).two(0).two(0).two(zip_date);
         b.four(m.checksum).four(m.size).four(m.size).two(m.name.size()).two(extra);
         b.two(0).two(0).two(0).four(0100644ULL << 16).four(m.offset).text(m.name);
-        if (extra != 0) b.two(zip64_field).two(field.all().size()).text(field.all());
-        return b.all();
+        if (extra != 0) b.two(zip64_field).two(field.all.size()).text(field.all);
+        return b.all;
     }
 
     base::OutputFile file_;

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -50,6 +51,17 @@ inline constexpr std::array<std::uint32_t, colour_count> colour_table{
     0xd8eb65, 0xdaec64, 0xdcec62, 0xdeed61, 0xe0ed60, 0xe2ed5f, 0xe4ee5e, 0xe7ee5d, 0xe9ee5c, 0xebef5a, 0xedef59,
     0xefef58, 0xf1ef57, 0xf3f056,
 };
+
+/// Where x lies between the ends of a range: 0 at `low`, 1 at `high`, beyond them less or more. Finite numbers.
+inline double place_in_range(double x, double low, double high) {
+    if (low == high) return x < low ? 0 : x > low ? 1 : 0.5;
+    double over = x - low, whole = high - low;
+    if (!std::isfinite(whole) || !std::isfinite(over)) {  // too large a difference: of halves there is one
+        over = 0.5 * x - 0.5 * low;
+        whole = 0.5 * high - 0.5 * low;
+    }
+    return over / whole;
+}
 
 /// Precondition: 0 <= i < colour_count.
 inline Colour colour(int i) {

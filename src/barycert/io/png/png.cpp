@@ -47,22 +47,6 @@ Status check(const std::string& path, const Slice& s) {
     return Done{};
 }
 
-struct Scale {
-    double low = 0, high = 0;
-
-    int operator()(double x) const {
-        if (low == high) return x < low ? 0 : x > low ? colour_count - 1 : colour_count / 2;
-        if (x <= low) return 0;
-        if (x >= high) return colour_count - 1;
-        double part = x - low, whole = high - low;
-        if (!std::isfinite(whole)) {  // too large a difference: of halves there is one
-            part = 0.5 * x - 0.5 * low;
-            whole = 0.5 * high - 0.5 * low;
-        }
-        return std::min(colour_count - 1, static_cast<int>(colour_count * (part / whole)));
-    }
-};
-
 bool has_colour(const Slice& s, std::size_t i) {
     return (s.valid.empty() || s.valid[i] != 0) && std::isfinite(s.values[i]);
 }
@@ -103,7 +87,6 @@ Status write_png(const std::string& path, const Slice& s, SliceCounts* counts) {
     const auto columns = static_cast<std::size_t>(wide), lines = static_cast<std::size_t>(tall);
 
     const SliceCounts told = count(s);
-    const Scale scale{told.low, told.high};
     const bool with_bar = s.bar && !std::isnan(told.low);
     const std::size_t height = with_bar ? std::max(lines, min_bar_height) : lines;
     const ColourBar bar(told.low, told.high, std::max(height, min_bar_height));
@@ -123,7 +106,9 @@ Status write_png(const std::string& path, const Slice& s, SliceCounts* counts) {
             const std::size_t first = (2 * upwards + 1) * s.height / (2 * lines) * s.width;
             for (std::size_t x = 0; x < columns; ++x) {
                 const std::size_t i = first + (2 * x + 1) * s.width / (2 * columns);
-                if (has_colour(s, i)) put_pixel(colour(scale(s.values[i])), pixels + 4 * x);
+                if (!has_colour(s, i)) continue;
+                const double part = std::clamp(place_in_range(s.values[i], told.low, told.high), 0.0, 1.0);
+                put_pixel(colour(std::min(colour_count - 1, static_cast<int>(colour_count * part))), pixels + 4 * x);
             }
         }
         if (with_bar) bar.row(r, pixels + 4 * columns);
