@@ -109,7 +109,7 @@ void fill_from_entities(const MshFile& file, const MshElements& elements, const 
     std::set<std::int64_t> in_several;
     bool grouped = false, any_entity = false;
     for (const ElementBlock& block : elements.blocks) {
-        if (cells.left_out[static_cast<std::size_t>(block.type->number)] != 0 || block.run.count == 0) continue;
+        if (cells.left_out.contains(block.type) || block.run.count == 0) continue;
         Piece piece{block.run.count, 0, block.entity};
         const auto found = groups.entities.find({cells.mesh.dimension, block.entity});
         if (found != groups.entities.end()) {
