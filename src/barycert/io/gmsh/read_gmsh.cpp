@@ -197,13 +197,10 @@ void label_cells(const MshFile& file, const MshElements& elements, const MshGrou
 }
 
 void note_sections(const MshFile& file, const std::vector<MshView>& views, Notes& notes) {
-    constexpr std::array<std::string_view, 11> read{"MeshFormat",  "PhysicalNames",   "Entities", "PartitionedEntities",
-                                                    "Nodes",       "ParametricNodes", "Elements", "NodeData",
-                                                    "ElementData", "ElementNodeData", "Comments"};
     std::set<std::string_view> others;
-    for (const MshSection& section : file.sections()) {
-        if (std::find(read.begin(), read.end(), section.name) == read.end()) others.insert(section.name);
-    }
+    for (const MshSection& section : file.sections()) others.insert(section.name);
+    for (const std::string_view name : once_sections) others.erase(name);
+    for (const std::string_view name : {"NodeData", "ElementData", "ElementNodeData", "Comments"}) others.erase(name);
     const auto shown = [](std::string_view name) { return base::printable(name.substr(0, 40)); };
     if (!others.empty())
         notes.push_back({Note::Kind::left_out, "section $" + base::joined(others, ", $", shown), file.path()});
