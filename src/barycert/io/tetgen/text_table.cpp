@@ -199,7 +199,7 @@ void read_header(TextTable& table, std::span<const char* const> header_names) {
                           base::quoted(field), "remove it or put # before it");
         if (!integer || value < 0 || value > max_count)
             refuse_count(table, field, i < header_names.size() ? header_names[i] : "columns");
-        table.header.push_back(value);
+        table.header.push_back(static_cast<std::size_t>(value));
     }
 }
 
@@ -226,29 +226,27 @@ std::vector<std::string_view> TextTable::first_row() const {
 TextTable open_table(const std::string& name, std::span<const char* const> header_names, int threads) {
     TextTable table;
     table.file = plain_or_packed(name);
+    bool has_first_row = false;  // in the first block of a larger file
     const auto header_in = [&](std::string_view block, std::uint64_t) -> Status {
         TextTable beginning;
         beginning.file = table.file;
         beginning.bytes = block.substr(0, block.rfind('\n') + 1);  // no comment is cut, and no number
         Status read = status_of([&] { read_header(beginning, header_names); });
+        has_first_row = beginning.body != 0 && !beginning.first_row().empty();
         return beginning.body == 0 ? Status(Done{}) : read;  // after many comments
     };
     table.input = base::InputFile::open(table.file, base::save_first, base::Text::all).value();
     table.threads = threads;
     table.input.check(base::Text::all, table.file, header_in).value();
-    bool has_first_row = false;
-    if (table.input.size() > base::first_block) {
+    if (has_first_row) {
         table.data = base::MappedFile::read(table.input, table.file, base::first_block).value();
         table.bytes = table.data.bytes().substr(0, base::first_block);
         table.bytes = table.bytes.substr(0, table.bytes.rfind('\n') + 1);
-        Scanner scanner{table.begin(), table.end()};
-        const bool has_header = scanner.next_row(table.end());
-        if (has_header) scanner.skip_line();
-        has_first_row = has_header && scanner.next_row(table.end());
+    } else {
+        table.read_whole();
     }
-    if (!has_first_row) table.read_whole();
     read_header(table, header_names);
-    table.rows = static_cast<std::size_t>(table.header[0]);
+    table.rows = table.header[0];
     return table;
 }
 
