@@ -75,28 +75,23 @@ PlcTriangles triangles_of(const Plc& plc) {
 }
 
 Surface surface_of(Polygons polygons, const std::string& path) {
-    Surface surface;
+    Surface surface = std::move(static_cast<Surface&>(polygons));
     std::size_t uncut = 0;
     if (polygons.counts.empty()) {
-        surface.cells = std::move(polygons.corners);
+        surface.cells = std::move(polygons.rings);
     } else {
-        auto corner = polygons.corners.begin();
+        auto corner = polygons.rings.begin();
         for (std::size_t i = 0; i < polygons.count(); ++i) {
             const auto end = corner + polygons.counts[i];
             const std::vector<Mesh::Index> ring(corner, end);
-            const surface::FacetTriangles cut = surface::triangles_of_facet(polygons.points, {&ring, 1}, {});
+            const surface::FacetTriangles cut = surface::triangles_of_facet(surface.points, {&ring, 1}, {});
             uncut += cut.triangles.empty() ? 1 : 0;
             add(surface, i, cut);
             corner = end;
         }
-        for (Field& field : polygons.cell_fields) field = mesh::rows_of(field, surface.facets);
+        for (Field& field : surface.cell_fields) field = mesh::rows_of(field, surface.facets);
         settle(surface, polygons.count());
     }
-    surface.points = std::move(polygons.points);
-    surface.point_fields = std::move(polygons.point_fields);
-    surface.cell_fields = std::move(polygons.cell_fields);
-    surface.index_base = polygons.index_base;
-    surface.notes = std::move(polygons.notes);
     note_uncut(surface, uncut, "polygons", path);
     return surface;
 }
