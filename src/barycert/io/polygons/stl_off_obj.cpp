@@ -27,7 +27,7 @@ public:
     Polygons all;
 
 private:
-    Mesh::Index& find(const std::array<double, 3>& at) {
+    Mesh::Index& find(std::span<const double, 3> at) {
         std::uint64_t hash = 0;
         for (const double x : at)
             hash = (hash ^ std::bit_cast<std::uint64_t>(x)) * 0x9E3779B97F4A7C15, hash ^= hash >> 29;
@@ -39,11 +39,8 @@ private:
     }
     void grow() {
         table_.assign(2 * table_.size(), -1);
-        for (std::size_t i = 0; i < count_; ++i) {
-            std::array<double, 3> at{};
-            std::copy_n(&all.points[3 * i], 3, at.begin());
-            find(at) = static_cast<Mesh::Index>(i);
-        }
+        for (std::size_t i = 0; i < count_; ++i)
+            find(std::span<const double, 3>(&all.points[3 * i], 3)) = static_cast<Mesh::Index>(i);
     }
 
     std::vector<Mesh::Index> table_;
