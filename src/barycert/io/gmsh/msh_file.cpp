@@ -122,16 +122,13 @@ void MshFile::list_text_sections() {
             refuse(from, "text between sections", "a line \"$...\" that begins a section", word_at(from, end()),
                    "remove it, or put it into a section $Comments");
     };
-    for (std::size_t i = 0; i < marks.size(); ++i) {
-        const std::string_view name = name_of(marks[i]);
-        no_text_before(marks[i]);
-        const std::string end_name = "End" + std::string(name);
-        std::size_t last = i + 1;
-        while (last < marks.size() && name_of(marks[last]) != end_name) ++last;
-        add_section(marks[i], last < marks.size() ? marks[last] : nullptr);
-        from = marks[last];
+    for (auto mark = marks.begin(); mark != marks.end(); ++mark) {
+        const char* const begins = *mark;
+        no_text_before(begins);
+        mark = std::ranges::find(mark + 1, marks.end(), "End" + std::string(name_of(begins)), name_of);
+        add_section(begins, mark == marks.end() ? nullptr : *mark);
+        from = *mark;
         take_line(from, end());
-        i = last;
     }
     no_text_before(end());
 }

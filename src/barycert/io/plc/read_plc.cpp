@@ -108,7 +108,7 @@ Plc plc_of(Polygons polygons) {
     plc.facets.resize(polygons.count());
     auto corner = polygons.rings.begin();
     for (std::size_t i = 0; i < plc.facets.size(); ++i) {
-        const auto end = corner + static_cast<std::ptrdiff_t>(polygons.corners_of(i));
+        const auto end = corner + (polygons.counts.empty() ? 3 : polygons.counts[i]);
         plc.facets[i].polygons.emplace_back(corner, end);
         corner = end;
     }

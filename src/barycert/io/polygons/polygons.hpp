@@ -63,7 +63,6 @@ struct Polygons : Surface {
     std::vector<std::uint32_t> counts;  ///< corners of each; empty: all are triangles
 
     std::size_t count() const { return counts.empty() ? rings.size() / 3 : counts.size(); }
-    std::size_t corners_of(std::size_t polygon) const { return counts.empty() ? 3 : counts[polygon]; }
 };
 
 /// Text or binary, with fields of points and polygons: properties that are numbers, but for coordinates.
