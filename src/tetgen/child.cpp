@@ -17,6 +17,7 @@
 #include <cstring>
 #include <memory>
 
+#include "barycert/base/input_file.hpp"
 #include "barycert/base/output_file.hpp"
 
 namespace barycert {
@@ -62,14 +63,6 @@ bool receive(int descriptor, double timeout_seconds, std::string& answer) {
     }
 }
 
-std::string contents(std::FILE* file) {
-    std::string text;
-    std::rewind(file);
-    std::array<char, 4096> block{};
-    while (const std::size_t got = std::fread(block.data(), 1, block.size(), file)) text.append(block.data(), got);
-    return text;
-}
-
 }  // namespace
 
 ChildOutcome run_in_child(const std::function<void(const Answer&)>& work, double timeout_seconds) {
@@ -97,7 +90,9 @@ ChildOutcome run_in_child(const std::function<void(const Answer&)>& work, double
     }
     if (WIFSIGNALED(status)) outcome.signal = WTERMSIG(status);
     if (WIFEXITED(status)) outcome.exit_code = WEXITSTATUS(status);
-    outcome.printed = contents(print.get());
+    const int printed = fileno(print.get());
+    outcome.printed.resize(static_cast<std::size_t>(lseek(printed, 0, SEEK_END)));
+    base::read_at(printed, 0, outcome.printed, "what the child printed").value();
     return outcome;
 }
 

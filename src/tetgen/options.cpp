@@ -20,19 +20,16 @@ namespace {
 /// Refuses what would go wrong silently: TetGen copies numbers and its command line into buffers of fixed size,
 /// ignores unknown switches, and some switches name files or outputs that do not exist here.
 void check_switches(const std::string& switches) {
-    constexpr std::string_view known = "pqaAYMDOoSTXCdVQJBlLbxcfen";
-    constexpr std::string_view numeric = "0123456789./,+-e";
+    const std::string known = "pqaAYMDOoSTXCdVQJBlLbxcfen";
     constexpr std::size_t longest = 200;
     if (switches.size() > longest) throw std::invalid_argument("--switches: longer than 200 characters");
     if (switches.empty()) throw std::invalid_argument("--switches: expected TetGen's switches, found nothing");
     if (switches.front() == '-') throw std::invalid_argument("--switches: expected no dash before TetGen's switches");
-    for (const char c : switches) {
-        if (known.find(c) != std::string_view::npos || numeric.find(c) != std::string_view::npos) continue;
+    if (const std::size_t bad = switches.find_first_not_of(known + "0123456789./,+-"); bad != std::string::npos)
         throw std::invalid_argument(
             fmt::format("--switches: expected letters of {} with their numbers, found '{}'; switches for other "
                         "inputs and outputs than a PLC and a mesh are not supported",
-                        known, c));
-    }
+                        known, switches[bad]));
 }
 
 /// A number of [low, high]; `range` says so in the error.

@@ -130,7 +130,7 @@ void append_block(Walk& walk, MshElements& elements, ElementBlock block) {
     run.at = walk.at();
     run.first = elements.count;
     run.id = elements.blocks.size();
-    elements.counts[static_cast<std::size_t>(block.type->number)] += run.count;
+    if (run.count != 0) elements.counts[block.type] += run.count;
     elements.count += run.count;
     walk.skip_rows(static_cast<std::int64_t>(run.count), run.numbers, run.bytes, "elements");
     elements.blocks.push_back(block);

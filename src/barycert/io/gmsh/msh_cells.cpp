@@ -2,7 +2,7 @@
 
 #include "barycert/io/gmsh/msh_parts.hpp"
 #include "barycert/io/parallel.hpp"
-#include "barycert/mesh/pulling.hpp"
+#include "barycert/mesh/cell_types.hpp"
 
 namespace barycert::io {
 namespace {
@@ -33,28 +33,23 @@ constexpr auto element_types = [] {
 constexpr std::array<std::string_view, 8> family_names{"point",       "line",       "triangle", "quadrangle",
                                                        "tetrahedron", "hexahedron", "prism",    "pyramid"};
 
-/// "8 points, 120 lines": of types whose dimension is at least `low` and at most `high`.
-std::string counted_types(const TypeCounts& counts, int low, int high) {
-    return base::joined(element_types, ", ", [&](const ElementType& type) {
-        const std::size_t count = counts[static_cast<std::size_t>(type.number)];
-        if (count == 0 || type.dimension() < low || type.dimension() > high) return std::string();
-        std::string name(family_names[static_cast<std::size_t>(type.family)]);
+/// "8 points, 120 lines".
+std::string counted_types(const TypeCounts& counts) {
+    return base::joined(counts, ", ", [](const TypeCounts::value_type& one) {
+        const auto [type, count] = one;
+        std::string name(family_names[static_cast<std::size_t>(type->family)]);
         if (count != 1) name.ends_with("on") ? name.replace(name.size() - 2, 2, "a") : name += 's';
-        return std::to_string(count) + " " + name + (type.order > 1 ? " of order " + std::to_string(type.order) : "");
+        return std::to_string(count) + " " + name + (type->order > 1 ? " of order " + std::to_string(type->order) : "");
     });
 }
 
-std::vector<const ElementType*> choose(const MshFile& file, const TypeCounts& counts) {
+/// Those of the highest dimension.
+TypeCounts choose(const MshFile& file, TypeCounts counts) {
     int dimension = 0;
-    std::vector<const ElementType*> kinds;  // of that dimension
-    for (const ElementType& type : element_types) {
-        if (counts[static_cast<std::size_t>(type.number)] == 0 || type.dimension() < dimension) continue;
-        if (type.dimension() > dimension) kinds.clear();
-        dimension = type.dimension();
-        kinds.push_back(&type);
-    }
-    if (dimension > 1) return kinds;
-    const std::string found = counted_types(counts, dimension, dimension);
+    for (const auto& [type, count] : counts) dimension = std::max(dimension, type->dimension());
+    std::erase_if(counts, [&](const auto& one) { return one.first->dimension() < dimension; });
+    if (dimension > 1) return counts;
+    const std::string found = counted_types(counts);
     refuse_file(file.path(), "the file contains no mesh", "cells that fill space, or polygons in the plane z = 0",
                 found.empty() ? "no elements" : found,
                 "mesh the geometry in Gmsh; if there are physical groups, it saves these alone: give the volume one, "
@@ -72,7 +67,8 @@ bool take_node(auto& row, const TagIndex& nodes, Mesh::Index& node) {
 
 /// What stands before the nodes of an element.
 struct Head {
-    std::int64_t tag = 0, physical = 0, entity = 0;
+    std::int64_t tag = 0;
+    std::array<std::int64_t, 2> groups{};  ///< physical, geometrical
 };
 
 bool take_head(auto& row, int version, const ElementBlock& block, Head& head) {
@@ -86,8 +82,7 @@ bool take_head(auto& row, int version, const ElementBlock& block, Head& head) {
     }
     for (std::size_t k = 0; k < block.tags; ++k) {
         if (!row.integer(value, "a tag of an element")) return false;
-        if (k == 0) head.physical = value;
-        if (k == 1) head.entity = value;
+        if (k < 2) head.groups[k] = value;
     }
     return true;
 }
@@ -104,8 +99,8 @@ struct Target {
         if (!take_head(row, file.version(), block, head)) return false;
         cells.tags[i] = head.tag;
         if (file.version() != 22) return true;
-        cells.physical[i] = static_cast<double>(head.physical);
-        cells.geometrical[i] = static_cast<double>(head.entity);
+        cells.physical[i] = static_cast<double>(head.groups[0]);
+        cells.geometrical[i] = static_cast<double>(head.groups[1]);
         return true;
     }
 };
@@ -230,14 +225,11 @@ void drop_repeats(MshCells& cells, std::size_t corners, std::size_t mids) {
         keep_rows(cells.mesh.cells, corners, kept);
         keep_rows(cells.mesh.mid_nodes, mids, kept);
     } else {
-        Mesh::Shapes own;
-        for (const Mesh::Index i : kept) {
-            const auto nodes = nodes_of(static_cast<std::size_t>(i));
-            own.nodes.insert(own.nodes.end(), nodes.begin(), nodes.end());
-            own.ends.push_back(static_cast<std::int64_t>(own.nodes.size()));
-            own.types.push_back(shapes.types[static_cast<std::size_t>(i)]);
-        }
-        shapes = std::move(own);
+        Mesh own;
+        own.dimension = cells.mesh.dimension;
+        for (const auto i : kept)
+            mesh::add_shape(own, shapes.types[static_cast<std::size_t>(i)], nodes_of(static_cast<std::size_t>(i)));
+        shapes = std::move(own.shapes);
     }
     keep_rows(cells.tags, 1, kept);
     keep_rows(cells.physical, 1, kept);
@@ -249,11 +241,9 @@ std::vector<std::uint8_t> mark_nodes(const MshFile& file, MshCells& cells, std::
     constexpr std::size_t step = std::size_t{1} << 16;
     for (const auto* nodes : {&cells.mesh.cells, &cells.mesh.mid_nodes, &cells.mesh.shapes.nodes}) {
         base::share_work(file.threads(), (nodes->size() + step - 1) / step, [&](std::size_t part) {
-            const std::size_t last = std::min(nodes->size(), (part + 1) * step);
-            for (std::size_t i = part * step; i < last; ++i) {
-                const std::atomic_ref<std::uint8_t> mark(used[static_cast<std::size_t>((*nodes)[i])]);
-                mark.store(1, std::memory_order_relaxed);
-            }
+            const auto some = std::span(*nodes).subspan(part * step);
+            for (const Mesh::Index node : some.first(std::min(step, some.size())))
+                std::atomic_ref(used[static_cast<std::size_t>(node)]).store(1, std::memory_order_relaxed);
             return true;
         });
     }
@@ -293,22 +283,21 @@ const ElementType* element_type(std::int64_t number) {
 }
 
 MshCells read_msh_cells(const MshFile& file, const MshElements& elements, const MshNodes& nodes) {
-    const std::vector<const ElementType*> types = choose(file, elements.counts);
-    const ElementType& type = *types.front();
+    const TypeCounts types = choose(file, elements.counts);
+    const ElementType& type = *types.begin()->first;
     const bool simplices = types.size() == 1 && type.order <= 2 &&
                            (type.family == ElementFamily::tetrahedron || type.family == ElementFamily::triangle);
     MshCells cells;
     cells.mesh.dimension = type.dimension();
     cells.left_out = elements.counts;
-    for (const ElementType* const own : types) {
-        std::size_t& left_out = cells.left_out[static_cast<std::size_t>(own->number)];
-        if (!simplices && own->order > 1 && kept_places(*own).empty()) cells.by_corners += left_out;
-        left_out = 0;
+    for (const auto& [own, number] : types) {
+        if (!simplices && own->order > 1 && kept_places(*own).empty()) cells.by_corners += number;
+        cells.left_out.erase(own);
     }
     std::vector<Run> runs, others;
     std::size_t count = 0;
     for (const ElementBlock& block : elements.blocks) {
-        const bool taken = std::ranges::count(types, block.type) != 0;
+        const bool taken = types.contains(block.type);
         (taken ? runs : others).push_back(block.run);
         if (!taken) continue;
         runs.back().first = count;
@@ -345,7 +334,7 @@ void note_cells(MshCells& cells, bool partitioned, const std::string& path) {
     const auto left_out = [&](std::string text, bool important) {
         cells.mesh.notes.push_back({Note::Kind::left_out, std::move(text), path, important});
     };
-    const std::string others = counted_types(cells.left_out, 0, cells.mesh.dimension - 1);
+    const std::string others = counted_types(cells.left_out);
     // Gmsh writes points, lines and triangles of the boundary beside nearly all meshes. That changes no result; to tell
     // it each time would teach users to look away. But of a wire nothing is left.
     if (!others.empty())

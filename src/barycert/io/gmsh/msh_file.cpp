@@ -1,7 +1,6 @@
 #include "barycert/io/gmsh/msh_file.hpp"
 
 #include <cstring>
-#include <set>
 
 #include "barycert/base/workers.hpp"
 
@@ -123,19 +122,13 @@ void MshFile::list_text_sections() {
             refuse(from, "text between sections", "a line \"$...\" that begins a section", word_at(from, end()),
                    "remove it, or put it into a section $Comments");
     };
-    for (std::size_t i = 0; i < marks.size(); ++i) {
-        const std::string_view name = name_of(marks[i]);
-        no_text_before(marks[i]);
-        std::size_t last = i + 1;
-        const auto ends = [&](const char* at) {
-            const std::string_view other = name_of(at);
-            return other.starts_with("End") && other.substr(3) == name;
-        };
-        while (last < marks.size() && !ends(marks[last])) ++last;
-        add_section(marks[i], last < marks.size() ? marks[last] : nullptr);
-        from = marks[last];
+    for (auto mark = marks.begin(); mark != marks.end(); ++mark) {
+        const char* const begins = *mark;
+        no_text_before(begins);
+        mark = std::ranges::find(mark + 1, marks.end(), "End" + std::string(name_of(begins)), name_of);
+        add_section(begins, mark == marks.end() ? nullptr : *mark);
+        from = *mark;
         take_line(from, end());
-        i = last;
     }
     no_text_before(end());
 }
@@ -156,11 +149,9 @@ void MshFile::list_binary_sections() {
 }
 
 void MshFile::check_sections() const {
-    const std::set<std::string_view> once{"MeshFormat", "PhysicalNames",   "Entities", "PartitionedEntities",
-                                          "Nodes",      "ParametricNodes", "Elements"};
-    std::set<std::string_view> found;
-    for (const auto& [name, body] : sections_) {
-        if (once.contains(name) && !found.insert(name).second)
+    for (const MshSection& section : sections_) {
+        const std::string_view name = section.name;
+        if (std::ranges::count(once_sections, name) != 0 && find(name) != &section)
             refuse(name.data(), "a second section $" + std::string(name), "one of each kind", "two",
                    "keep one mesh a file");
     }

@@ -56,6 +56,10 @@ struct MshSection {
     std::string_view body;
 };
 
+/// Of which a file has one at most.
+inline constexpr std::array<std::string_view, 7> once_sections{
+    "MeshFormat", "PhysicalNames", "Entities", "PartitionedEntities", "Nodes", "ParametricNodes", "Elements"};
+
 class MshFile {
 public:
     /// Error: it cannot be read, is of another format or version, or a section has no end.

@@ -18,8 +18,8 @@ struct ElementType {
 
 const ElementType* element_type(std::int64_t number);
 
-/// How many elements there are of each type, whose numbers are at most that.
-using TypeCounts = std::array<std::size_t, 141>;
+/// How many elements there are of each type, if there are any; in the order of their numbers.
+using TypeCounts = std::map<const ElementType*, std::size_t>;
 
 class TagIndex {
 public:
@@ -95,7 +95,7 @@ struct ElementBlock {
 
 struct MshElements {
     std::vector<ElementBlock> blocks;
-    TypeCounts counts{};
+    TypeCounts counts;
     std::size_t count = 0;
 };
 
@@ -106,7 +106,7 @@ struct MshCells {
     Mesh mesh;                                  ///< its cells or shapes, with mid-edge nodes in Gmsh's order
     std::vector<std::int64_t> tags;             ///< of elements
     std::vector<double> physical, geometrical;  ///< tags of groups and of entities; in 2.x only
-    TypeCounts left_out{};                      ///< of a lower dimension
+    TypeCounts left_out;                        ///< of a lower dimension
     bool apart = false;                         ///< one of these has a node that no cell has
     bool partitioned = false;                   ///< there are further tags; 2.x only
     std::size_t unused_nodes = 0;

@@ -163,14 +163,12 @@ std::optional<std::int64_t> choose_step(const std::vector<const MshView*>& views
     if (steps.size() == 1) return *steps.begin();
     const std::string has = base::quoted(views.front()->field) + " has " + std::to_string(steps.size()) + " steps, " +
                             std::to_string(*steps.begin()) + " to " + std::to_string(*steps.rbegin());
-    if (!wanted) {
-        const MshView* const first = *std::ranges::min_element(views, {}, &MshView::step);
-        notes.push_back({Note::Kind::left_out, has + ": all but " + step_text(*first) + ", which is read", path, true});
-        return *steps.begin();
-    }
-    if (steps.count(*wanted) != 0) return wanted;
-    notes.push_back({Note::Kind::left_out, has + ": none of them is " + std::to_string(*wanted), path, true});
-    return std::nullopt;
+    if (wanted && steps.contains(*wanted)) return wanted;
+    const MshView* const first = *std::ranges::min_element(views, {}, &MshView::step);
+    const std::string rest =
+        wanted ? ": none of them is " + std::to_string(*wanted) : ": all but " + step_text(*first) + ", which is read";
+    notes.push_back({Note::Kind::left_out, has + rest, path, true});
+    return wanted ? std::nullopt : std::optional(first->step);
 }
 
 }  // namespace

@@ -94,40 +94,36 @@ void take_entities(const MshFile& file, const MshSection& section, bool parts, M
     walk.need_end();
 }
 
-/// The tag of an entity: 1, or 0 for none, throughout says nothing.
-bool says_something(std::int64_t tag, std::int64_t first) {
-    return tag != first || (tag != 0 && tag != 1);
+/// Drops tags of groups that are all 0, for none, and those of entities that are all 0 or all 1.
+void drop_what_says_nothing(MshCells& cells) {
+    if (std::ranges::all_of(cells.physical, [](double tag) { return tag == 0; })) cells.physical.clear();
+    const std::vector<double>& tags = cells.geometrical;
+    const auto says_nothing = [&](double tag) { return tag == tags.front() && (tag == 0 || tag == 1); };
+    if (std::ranges::all_of(tags, says_nothing)) cells.geometrical.clear();
 }
 
 /// 4.x: groups of cells by way of their entities. Nothing is filled in that would say nothing.
 void fill_from_entities(const MshFile& file, const MshElements& elements, const MshGroups& groups, MshCells& cells) {
-    struct Piece {
-        std::size_t count;
-        std::int64_t physical, whole;
-    };
-    std::vector<Piece> pieces;
+    std::vector<std::size_t> counts;  // of cells with each tag
     std::set<std::int64_t> in_several;
-    bool grouped = false, any_entity = false;
     for (const ElementBlock& block : elements.blocks) {
-        if (cells.left_out[static_cast<std::size_t>(block.type->number)] != 0 || block.run.count == 0) continue;
-        Piece piece{block.run.count, 0, block.entity};
+        if (cells.left_out.contains(block.type) || block.run.count == 0) continue;
         const auto found = groups.entities.find({cells.mesh.dimension, block.entity});
-        if (found != groups.entities.end()) {
-            const std::vector<std::int64_t>& physical = found->second.physical;
-            piece.whole = found->second.whole;
-            if (!physical.empty()) piece.physical = physical.front();
-            if (physical.size() > 1) in_several.insert(block.entity);
-        }
-        grouped = grouped || piece.physical != 0;
-        any_entity = any_entity || says_something(piece.whole, pieces.empty() ? piece.whole : pieces.front().whole);
-        pieces.push_back(piece);
+        const MshEntity alone{{}, block.entity};
+        const MshEntity& entity = found == groups.entities.end() ? alone : found->second;
+        counts.push_back(block.run.count);
+        cells.physical.push_back(entity.physical.empty() ? 0 : static_cast<double>(entity.physical.front()));
+        cells.geometrical.push_back(static_cast<double>(entity.whole));
+        if (entity.physical.size() > 1) in_several.insert(block.entity);
     }
-    const auto fill = [&](std::vector<double>& values, std::int64_t Piece::*tag) {
-        values.reserve(cells.tags.size());
-        for (const Piece& piece : pieces) values.insert(values.end(), piece.count, static_cast<double>(piece.*tag));
-    };
-    if (grouped) fill(cells.physical, &Piece::physical);
-    if (any_entity) fill(cells.geometrical, &Piece::whole);
+    drop_what_says_nothing(cells);
+    for (std::vector<double>* const tags : {&cells.physical, &cells.geometrical}) {
+        if (tags->empty()) continue;
+        std::vector<double> of_cells;
+        of_cells.reserve(cells.tags.size());
+        for (std::size_t i = 0; i < counts.size(); ++i) of_cells.insert(of_cells.end(), counts[i], (*tags)[i]);
+        *tags = std::move(of_cells);
+    }
     if (in_several.empty()) return;
     cells.mesh.notes.push_back({Note::Kind::left_out,
                                 "further physical groups of " + std::to_string(in_several.size()) +
@@ -136,30 +132,18 @@ void fill_from_entities(const MshFile& file, const MshElements& elements, const 
                                 file.path(), true});
 }
 
-/// 2.x: the same for what was read with each cell.
-void drop_what_says_nothing(MshCells& cells) {
-    if (std::ranges::all_of(cells.physical, [](double tag) { return tag == 0; })) cells.physical.clear();
-    const std::vector<double>& tags = cells.geometrical;
-    const bool any = std::any_of(tags.begin(), tags.end(), [&](double tag) {
-        return says_something(static_cast<std::int64_t>(tag), static_cast<std::int64_t>(tags.front()));
-    });
-    if (!any) cells.geometrical.clear();
-}
-
 std::vector<std::string> group_names(const MshCells& cells, const MshGroups& groups) {
     std::vector<std::string> names;
     names.reserve(cells.physical.size());
-    double last = 0;
-    const std::string nothing;
-    const std::string* name = &nothing;
-    for (const double tag : cells.physical) {
-        if (tag != last || names.empty()) {
-            // A group that is turned around has its tag with a minus.
-            const auto found = groups.names.find({cells.mesh.dimension, static_cast<std::int64_t>(std::fabs(tag))});
-            name = found == groups.names.end() ? &nothing : &found->second;
-            last = tag;
+    for (std::size_t i = 0; i < cells.physical.size(); ++i) {
+        if (i != 0 && cells.physical[i] == cells.physical[i - 1]) {
+            names.push_back(names.back());
+            continue;
         }
-        names.push_back(*name);
+        // A group that is turned around has its tag with a minus.
+        const auto tag = static_cast<std::int64_t>(std::fabs(cells.physical[i]));
+        const auto found = groups.names.find({cells.mesh.dimension, tag});
+        names.push_back(found == groups.names.end() ? "" : found->second);
     }
     return names;
 }
@@ -197,13 +181,10 @@ void label_cells(const MshFile& file, const MshElements& elements, const MshGrou
 }
 
 void note_sections(const MshFile& file, const std::vector<MshView>& views, Notes& notes) {
-    constexpr std::array<std::string_view, 11> read{"MeshFormat",  "PhysicalNames",   "Entities", "PartitionedEntities",
-                                                    "Nodes",       "ParametricNodes", "Elements", "NodeData",
-                                                    "ElementData", "ElementNodeData", "Comments"};
     std::set<std::string_view> others;
-    for (const MshSection& section : file.sections()) {
-        if (std::find(read.begin(), read.end(), section.name) == read.end()) others.insert(section.name);
-    }
+    for (const MshSection& section : file.sections()) others.insert(section.name);
+    for (const std::string_view name : once_sections) others.erase(name);
+    for (const std::string_view name : {"NodeData", "ElementData", "ElementNodeData", "Comments"}) others.erase(name);
     const auto shown = [](std::string_view name) { return base::printable(name.substr(0, 40)); };
     if (!others.empty())
         notes.push_back({Note::Kind::left_out, "section $" + base::joined(others, ", $", shown), file.path()});

@@ -62,23 +62,20 @@ std::vector<std::int64_t> element_tags(const Mesh& mesh) {
     return tags;
 }
 
-void split_entities(CellGroups& groups, std::size_t cells) {
-    std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> parts;
-    std::vector<std::int32_t> entity(cells);
+/// Sets `physical_of`. False: an entity had several groups, and its parts are entities of their own now.
+bool settle_entities(CellGroups& groups, std::size_t cells) {
+    std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> parts;  // their entities and groups: their numbers
+    std::vector<std::int32_t> part_of(cells);
     for (std::size_t i = 0; i < cells; ++i) {
         const auto next = static_cast<std::int32_t>(parts.size()) + 1;
-        entity[i] = parts.emplace(std::pair(groups.entity_of(i), groups.group_of(i)), next).first->second;
+        part_of[i] = parts.emplace(std::pair(groups.entity_of(i), groups.group_of(i)), next).first->second;
     }
-    groups.entity = std::move(entity);
-}
-
-bool one_group_each(CellGroups& groups, std::size_t cells) {
+    for (const auto& [part, number] : parts) groups.physical_of.insert(part);
+    if (groups.physical_of.size() == parts.size()) return true;
+    groups.entity = std::move(part_of);
     groups.physical_of.clear();
-    for (std::size_t i = 0; i < cells; ++i) {
-        if (groups.physical_of.emplace(groups.entity_of(i), groups.group_of(i)).first->second != groups.group_of(i))
-            return false;
-    }
-    return true;
+    for (const auto& [part, number] : parts) groups.physical_of[number] = part.second;
+    return false;
 }
 
 /// `by_entity`: an entity can be in one group only (4.1). Error: one group with two names.
@@ -99,11 +96,7 @@ CellGroups group_cells(const Mesh& mesh, bool by_entity, const std::string& path
     };
     const Field* const physical = take("gmsh:physical", 0, groups.physical);
     const Field* geometrical = take("gmsh:geometrical", 1, groups.entity);
-    if (by_entity && !one_group_each(groups, mesh.cell_count())) {
-        geometrical = nullptr;
-        split_entities(groups, mesh.cell_count());
-        one_group_each(groups, mesh.cell_count());
-    }
+    if (by_entity && !settle_entities(groups, mesh.cell_count())) geometrical = nullptr;
     if (groups.physical_of.empty()) groups.physical_of[1] = 0;
     for (const Field& field : mesh.cell_fields) {
         if (&field != physical && &field != geometrical) groups.data.push_back(&field);

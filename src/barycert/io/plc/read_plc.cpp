@@ -106,9 +106,9 @@ PlcFacet read_facet(PlcText& in, const Plc& plc, bool one_polygon) {
 Plc plc_of(Polygons polygons) {
     Plc plc;
     plc.facets.resize(polygons.count());
-    auto corner = polygons.corners.begin();
+    auto corner = polygons.rings.begin();
     for (std::size_t i = 0; i < plc.facets.size(); ++i) {
-        const auto end = corner + static_cast<std::ptrdiff_t>(polygons.corners_of(i));
+        const auto end = corner + (polygons.counts.empty() ? 3 : polygons.counts[i]);
         plc.facets[i].polygons.emplace_back(corner, end);
         corner = end;
     }

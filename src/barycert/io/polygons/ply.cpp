@@ -155,7 +155,7 @@ void read_faces(PlcText& in, Numbers& numbers, const Element& element, Polygons&
                 all.cell_fields[field++].data.push_back(numbers.take(property.type, "a property of a face"));
                 continue;
             }
-            const std::size_t n = numbers.take_list(property, is_corners(property) ? &all.corners : nullptr);
+            const std::size_t n = numbers.take_list(property, is_corners(property) ? &all.rings : nullptr);
             if (!is_corners(property)) continue;
             if (n < 3) in.fail("cannot read", "a polygon of three or more corners", std::to_string(n));
             all.counts.push_back(static_cast<std::uint32_t>(n));

@@ -57,17 +57,12 @@ private:
 /// The whole file as text. `check` throws what is wrong with its beginning, whole lines of it.
 std::string read_surface_text(const std::string& path, const std::function<void(PlcText&)>& check);
 
-struct Polygons {
-    std::vector<double> points;         ///< 3 coordinates a point
-    std::vector<Mesh::Index> corners;   ///< of all polygons, one after the other
+/// A surface whose polygons are not cut into cells yet: its cell fields have a row for each polygon.
+struct Polygons : Surface {
+    std::vector<Mesh::Index> rings;     ///< the corners of all polygons, one after the other
     std::vector<std::uint32_t> counts;  ///< corners of each; empty: all are triangles
-    std::vector<Field> point_fields, cell_fields;
-    int index_base = 0;
-    Notes notes;
 
-    std::size_t point_count() const { return points.size() / 3; }
-    std::size_t count() const { return counts.empty() ? corners.size() / 3 : counts.size(); }
-    std::size_t corners_of(std::size_t polygon) const { return counts.empty() ? 3 : counts[polygon]; }
+    std::size_t count() const { return counts.empty() ? rings.size() / 3 : counts.size(); }
 };
 
 /// Text or binary, with fields of points and polygons: properties that are numbers, but for coordinates.

@@ -15,19 +15,19 @@ public:
 
     void add(std::array<double, 3> at) {
         for (double& x : at) x += 0.0;  // -0 and 0 are one place
-        if (2 * (all.point_count() + 1) > table_.size()) grow();
+        if (2 * (count_ + 1) > table_.size()) grow();
         Mesh::Index& entry = find(at);
         if (entry < 0) {
-            entry = static_cast<Mesh::Index>(all.point_count());
+            entry = static_cast<Mesh::Index>(count_++);
             all.points.insert(all.points.end(), at.begin(), at.end());
         }
-        all.corners.push_back(entry);
+        all.rings.push_back(entry);
     }
 
     Polygons all;
 
 private:
-    Mesh::Index& find(const std::array<double, 3>& at) {
+    Mesh::Index& find(std::span<const double, 3> at) {
         std::uint64_t hash = 0;
         for (const double x : at)
             hash = (hash ^ std::bit_cast<std::uint64_t>(x)) * 0x9E3779B97F4A7C15, hash ^= hash >> 29;
@@ -39,14 +39,12 @@ private:
     }
     void grow() {
         table_.assign(2 * table_.size(), -1);
-        for (std::size_t i = 0; i < all.point_count(); ++i) {
-            std::array<double, 3> at{};
-            std::copy_n(&all.points[3 * i], 3, at.begin());
-            find(at) = static_cast<Mesh::Index>(i);
-        }
+        for (std::size_t i = 0; i < count_; ++i)
+            find(std::span<const double, 3>(&all.points[3 * i], 3)) = static_cast<Mesh::Index>(i);
     }
 
     std::vector<Mesh::Index> table_;
+    std::size_t count_ = 0;  // of points
 };
 
 template <class T>
@@ -67,7 +65,7 @@ bool is_binary(std::string_view bytes, std::size_t size, const std::string& path
 Polygons read_binary(const std::string& path, std::string_view bytes) {
     const std::size_t count = (bytes.size() - header_bytes) / record_bytes;
     Joined soup(count);
-    soup.all.corners.reserve(3 * count);
+    soup.all.rings.reserve(3 * count);
     for (std::size_t i = 0; i < count; ++i) {
         for (std::size_t corner = 0; corner < 3; ++corner) {
             std::array<double, 3> at{};
@@ -96,7 +94,7 @@ Polygons read_stl(PlcText& in) {
     std::size_t begin = 0;
     while (in.next_line()) {
         ended = in.word(0) == "endsolid";
-        if (in.word(0) == "endloop" && soup.all.corners.size() - std::exchange(begin, soup.all.corners.size()) != 3)
+        if (in.word(0) == "endloop" && soup.all.rings.size() - std::exchange(begin, soup.all.rings.size()) != 3)
             in.fail("cannot read", "a facet of three corners", in.line());
         if (in.word(0) != "vertex") continue;
         in.take("vertex");
@@ -104,7 +102,7 @@ Polygons read_stl(PlcText& in) {
         for (double& x : corner) x = in.take_number("a coordinate");
         soup.add(corner);
     }
-    if (!ended || soup.all.corners.size() % 3 != 0) in.fail("the file is truncated", "endsolid", "the end of the file");
+    if (!ended || soup.all.rings.size() % 3 != 0) in.fail("the file is truncated", "endsolid", "the end of the file");
     return std::move(soup.all);
 }
 
@@ -126,8 +124,8 @@ Polygons read_off(PlcText& in) {
         const std::size_t n = in.take_count("the number of a polygon's corners");
         if (n < 3) in.fail("cannot read", "a polygon of three or more corners", std::to_string(n));
         for (std::size_t k = 0; k < n; ++k) {
-            all.corners.push_back(in.take_integer("a polygon's corner"));
-            if (const Mesh::Index corner = all.corners.back(); corner < 0 || static_cast<std::size_t>(corner) > nodes)
+            all.rings.push_back(in.take_integer("a polygon's corner"));
+            if (const Mesh::Index corner = all.rings.back(); corner < 0 || static_cast<std::size_t>(corner) > nodes)
                 in.fail("no such node", nodes_of(nodes), std::to_string(corner));
         }
         all.counts.push_back(static_cast<std::uint32_t>(n));
@@ -155,7 +153,7 @@ Polygons read_obj(PlcText& in) {
                 const std::int64_t at = id < 0 ? count + id : id - 1;
                 if (id == 0 || at < 0 || at >= count)
                     in.fail("no such node", "1 to " + std::to_string(count), std::to_string(id));
-                all.corners.push_back(static_cast<Mesh::Index>(at));
+                all.rings.push_back(static_cast<Mesh::Index>(at));
             }
             all.counts.push_back(static_cast<std::uint32_t>(n));
         } else if (std::ranges::find(others, key) == others.end()) {
@@ -175,14 +173,14 @@ bool is_binary_surface(std::string_view path, std::string_view beginning, std::s
 }
 
 void check_corners(PlcText& in, Polygons& all) {
-    if (all.corners.empty()) return;
-    const auto [low, high] = std::ranges::minmax(all.corners);
+    if (all.rings.empty()) return;
+    const auto [low, high] = std::ranges::minmax(all.rings);
     if (low >= 0 && static_cast<std::size_t>(high) < all.point_count()) return;
     // A file that never uses 0 and does use the count of its points numbers from 1.
     if (low < 1 || static_cast<std::size_t>(high) > all.point_count())
         in.fail("no such node", nodes_of(all.point_count()), std::to_string(low < 0 ? low : high));
     all.index_base = 1;
-    for (Mesh::Index& corner : all.corners) --corner;
+    for (Mesh::Index& corner : all.rings) --corner;
 }
 
 Polygons read_polygons(const std::string& path) {

@@ -75,28 +75,23 @@ PlcTriangles triangles_of(const Plc& plc) {
 }
 
 Surface surface_of(Polygons polygons, const std::string& path) {
-    Surface surface;
+    Surface surface = std::move(static_cast<Surface&>(polygons));
     std::size_t uncut = 0;
     if (polygons.counts.empty()) {
-        surface.cells = std::move(polygons.corners);
+        surface.cells = std::move(polygons.rings);
     } else {
-        auto corner = polygons.corners.begin();
+        auto corner = polygons.rings.begin();
         for (std::size_t i = 0; i < polygons.count(); ++i) {
             const auto end = corner + polygons.counts[i];
             const std::vector<Mesh::Index> ring(corner, end);
-            const surface::FacetTriangles cut = surface::triangles_of_facet(polygons.points, {&ring, 1}, {});
+            const surface::FacetTriangles cut = surface::triangles_of_facet(surface.points, {&ring, 1}, {});
             uncut += cut.triangles.empty() ? 1 : 0;
             add(surface, i, cut);
             corner = end;
         }
-        for (Field& field : polygons.cell_fields) field = mesh::rows_of(field, surface.facets);
+        for (Field& field : surface.cell_fields) field = mesh::rows_of(field, surface.facets);
         settle(surface, polygons.count());
     }
-    surface.points = std::move(polygons.points);
-    surface.point_fields = std::move(polygons.point_fields);
-    surface.cell_fields = std::move(polygons.cell_fields);
-    surface.index_base = polygons.index_base;
-    surface.notes = std::move(polygons.notes);
     note_uncut(surface, uncut, "polygons", path);
     return surface;
 }
@@ -125,30 +120,24 @@ Result<Surface> read_surface(const std::string& path, const ReadOptions& options
 }
 
 Result<std::variant<Mesh, Surface>> read_mesh_or_surface(const std::string& path, const ReadOptions& options) {
-    using Either = std::variant<Mesh, Surface>;
-    if (!io::is_polygons_file(path)) {
+    return io::read_guarded(path, [&]() -> std::variant<Mesh, Surface> {
+        if (io::is_plc_file(path)) return io::surface_of(read_plc(path).value(), path);
+        if (io::is_polygons_file(path)) {
+            Surface surface = io::surface_of(io::read_polygons(path), path);
+            if (surface.cells.empty()) io::refuse_file(path, "the surface has no triangles");
+            return surface;
+        }
         io::InSpace space;
-        Result<Mesh> mesh = io::read_mesh_in_space(path, options, &space);
-        if (!mesh) return mesh.error();
-        if (space.points.empty() && space.facets.empty()) return Either(std::move(*mesh));
-        Surface surface = io::surface_of(std::move(*mesh), std::move(space));
+        Mesh mesh = io::read_mesh_in_space(path, options, &space).value();
+        if (space.points.empty() && space.facets.empty()) return mesh;
+        Surface surface = io::surface_of(std::move(mesh), std::move(space));
         if (const double z = surface.points.size() < 3 ? 0 : surface.points[2];
             z != 0 && io::in_plane(surface.points, z))
             surface.notes.push_back({Note::Kind::guessed,
                                      "the triangles lie in the plane z = " + base::shortest(z) +
                                          " and are taken for a surface in space; with z = 0 they are a mesh",
                                      path, true});
-        return Either(std::move(surface));
-    }
-    if (io::is_plc_file(path)) {
-        const Result<Plc> plc = read_plc(path);
-        if (!plc) return plc.error();
-        return Either(io::surface_of(*plc, path));
-    }
-    return io::read_guarded(path, [&]() -> Result<Either> {
-        Surface surface = io::surface_of(io::read_polygons(path), path);
-        if (surface.cells.empty()) return file_error(path, "the surface has no triangles");
-        return Either(std::move(surface));
+        return surface;
     });
 }
 

@@ -26,28 +26,25 @@ namespace {
 constexpr std::array<std::string_view, 4> suffixes{".node", ".ele", ".face", ".neigh"};
 constexpr std::array node_header{"nodes", "dimensions", "attributes", "markers"};
 
-std::string header_text(std::initializer_list<std::int64_t> numbers) {
-    return '"' + base::joined(numbers, " ", [](std::int64_t number) { return std::to_string(number); }) + '"';
+std::string header_text(std::initializer_list<std::size_t> numbers) {
+    return '"' + base::joined(numbers, " ", [](std::size_t number) { return std::to_string(number); }) + '"';
 }
 
 [[noreturn]] void refuse_meaning(const TextTable& table, const std::string& what, std::string expected,
-                                 std::int64_t found, std::string remedy) {
+                                 std::size_t found, std::string remedy) {
     refuse_header(table, what + " in the header", std::move(expected), std::to_string(found), std::move(remedy));
 }
 
 /// Sets the columns and the base of a .node file by its header and first row, and makes room for their values.
-void settle_node_columns(TextTable& table, std::int64_t dimension, std::vector<double>& points,
+void settle_node_columns(TextTable& table, std::size_t dimension, std::vector<double>& points,
                          std::vector<Field>& fields, std::vector<std::int64_t>& markers_of_nodes) {
-    const std::int64_t attributes = table.header_field(2, 0), markers = table.header_field(3, 0);
+    const std::size_t attributes = table.header_field(2, 0), markers = table.header_field(3, 0);
     if (markers > 1)
         refuse_meaning(table, "bad number of markers", "0 or 1", markers, "declare further columns as attributes");
-    table.columns = {{ColumnKind::id, 1, "id"},
-                     {ColumnKind::real, static_cast<std::size_t>(dimension), "coordinate"},
-                     {ColumnKind::real, static_cast<std::size_t>(attributes), "attribute"},
-                     {ColumnKind::integer, static_cast<std::size_t>(markers), "marker"}};
-    table.columns[1].reals = &points;
-    table.columns[2].fields = &fields;
-    table.columns[3].integers = &markers_of_nodes;
+    table.columns = {{.name = "id"},
+                     {.kind = ColumnKind::real, .count = dimension, .name = "coordinate", .reals = &points},
+                     {.kind = ColumnKind::real, .count = attributes, .name = "attribute", .fields = &fields},
+                     {.kind = ColumnKind::integer, .count = markers, .name = "marker", .integers = &markers_of_nodes}};
     const std::vector<std::string_view> first = table.first_row();
     std::int64_t id = 0;
     table.base = !first.empty() && scan_integer(first.front().data(), id) != nullptr && id == 1 ? 1 : 0;
@@ -86,15 +83,14 @@ private:
     void prepare_nodes() {
         TextTable& table = nodes_ = open_table(stem_ + ".node", node_header, options_.threads);
 
-        const std::int64_t dimension = table.header_field(1, 3);
+        const std::size_t dimension = table.header_field(1, 3);
         if (dimension != 2 && dimension != 3)
             refuse_meaning(table, "bad dimension", "2 or 3", dimension,
                            "the header is: nodes, dimension, attributes, markers");
-        const std::int64_t count = table.header[0], attributes = table.header_field(2, 0),
-                           markers = table.header_field(3, 0);
-        const std::string more = header_text({count, dimension, attributes + 1, markers});
+        const std::size_t attributes = table.header_field(2, 0), markers = table.header_field(3, 0);
+        const std::string more = header_text({table.rows, dimension, attributes + 1, markers});
         table.surplus_remedy = markers == 0 ? "if the last column is a marker, make the header " +
-                                                  header_text({count, dimension, attributes, 1}) +
+                                                  header_text({table.rows, dimension, attributes, 1}) +
                                                   "; if it is an attribute, " + more
                                             : "if there is one attribute more, make the header " + more;
         mesh_.dimension = static_cast<int>(dimension);
@@ -110,20 +106,19 @@ private:
         TextTable& table = cells_ = open(".ele", names);
 
         const bool flat = mesh_.dimension == 2;
-        const std::int64_t corners = table.header_field(1, flat ? 3 : 4);
-        const std::int64_t attributes = table.header_field(2, 0);
+        const std::size_t corners = table.header_field(1, mesh_.corners()), attributes = table.header_field(2, 0);
         if (flat ? corners != 3 && corners != 6 : corners != 4 && corners != 10)
             refuse_meaning(
                 table, "bad number of corners",
                 flat ? "3 or 6, for the .node file has 2 dimensions" : "4 or 10, for the .node file has 3 dimensions",
                 corners, "check that the files belong together and hold triangles (2D) or tetrahedra (3D)");
-        table.columns = {{ColumnKind::id, 1, "id"},
-                         {ColumnKind::index, static_cast<std::size_t>(corners), "corner", nodes_.limit(), "nodes",
-                          &mesh_.cells, &mesh_.mid_nodes, mesh_.corners()},
-                         {ColumnKind::real, static_cast<std::size_t>(attributes), "attribute"}};
-        table.columns[2].fields = &mesh_.cell_fields;
-        table.surplus_remedy = "if there is one attribute more, make the header " +
-                               header_text({table.header[0], corners, attributes + 1});
+        table.columns = {
+            {.name = "id"},
+            {ColumnKind::index, corners, "corner", nodes_.limit(), "nodes", &mesh_.cells, &mesh_.mid_nodes,
+             mesh_.corners()},
+            {.kind = ColumnKind::real, .count = attributes, .name = "attribute", .fields = &mesh_.cell_fields}};
+        table.surplus_remedy =
+            "if there is one attribute more, make the header " + header_text({table.rows, corners, attributes + 1});
         make_room(table);
     }
 
@@ -133,22 +128,21 @@ private:
         if (mesh_.dimension == 2)
             refuse_header(table, "a mesh of triangles has no faces", "", "",
                           "remove the .face file or do not ask for faces");
-        const std::int64_t markers = table.header_field(1, 0);
+        const std::size_t markers = table.header_field(1, 0);
         if (markers > 1) refuse_meaning(table, "bad number of markers", "0 or 1", markers, {});
-        const auto marker_columns = static_cast<std::size_t>(markers);
         const std::size_t found = table.first_row().size();
-        const std::size_t linear = 4 + marker_columns;  // id, corners, marker
+        const std::size_t linear = 4 + markers;  // id, corners, marker
         const bool mids = found == linear + 3 || found == linear + 5;
         const bool adjacent = found == linear + 2 || found == linear + 5;  // checked, and told again by the neighbours
-        table.columns = {{ColumnKind::id, 1, "id"},
-                         {ColumnKind::index, mids ? 6U : 3U, "corner", nodes_.limit(), "nodes", &mesh_.faces,
-                          &mesh_.face_mid_nodes, 3},
-                         {ColumnKind::integer, marker_columns, "marker"},
-                         {ColumnKind::neighbour, adjacent ? 2U : 0U, "cell", cells_.limit(), "cells"}};
-        table.columns[2].integers = &mesh_.face_markers;
-        table.surplus_remedy =
-            markers == 0 ? "if the last column is a marker, make the header " + header_text({table.header[0], 1})
-                         : "let all rows have as many columns as the first";
+        table.columns = {
+            {.name = "id"},
+            {ColumnKind::index, mids ? 6U : 3U, "corner", nodes_.limit(), "nodes", &mesh_.faces, &mesh_.face_mid_nodes,
+             3},
+            {.kind = ColumnKind::integer, .count = markers, .name = "marker", .integers = &mesh_.face_markers},
+            {ColumnKind::neighbour, adjacent ? 2U : 0U, "cell", cells_.limit(), "cells"}};
+        table.surplus_remedy = markers == 0
+                                   ? "if the last column is a marker, make the header " + header_text({table.rows, 1})
+                                   : "let all rows have as many columns as the first";
         make_room(table);
     }
 
@@ -160,10 +154,9 @@ private:
         if (table.rows != cells_.rows)
             refuse_header(table, "the number of cells differs from that of the .ele file", std::to_string(cells_.rows),
                           std::to_string(table.rows), remedy);
-        const std::int64_t declared = table.header_field(1, static_cast<std::int64_t>(sides));
-        if (declared != static_cast<std::int64_t>(sides))
+        if (const std::size_t declared = table.header_field(1, sides); declared != sides)
             refuse_meaning(table, "bad number of neighbours", std::to_string(sides), declared, remedy);
-        table.columns = {{ColumnKind::id, 1, "id"},
+        table.columns = {{.name = "id"},
                          {ColumnKind::neighbour, sides, "neighbour", cells_.limit(), "cells", &mesh_.neighbours}};
         table.surplus_remedy = "let each row have an id and " + std::to_string(sides) + " neighbours";
         make_room(table);
@@ -199,9 +192,9 @@ private:
 Source open_node_source(const std::string& path, int dimension, const PointOptions& options) {
     const int threads = base::arena_threads();
     TextTable table = open_table(path, node_header, threads);
-    const std::int64_t found = table.header_field(1, 3);
+    const std::size_t found = table.header_field(1, 3);
     // Points in space may lie in the plane of a mesh.
-    if ((found < dimension && options.columns.empty()) || found < 2 || found > 3) {
+    if ((std::cmp_less(found, dimension) && options.columns.empty()) || found < 2 || found > 3) {
         const std::string d = std::to_string(dimension);
         refuse_header(table, "bad dimension in the header", d + ", for the mesh is " + d + "-dimensional",
                       std::to_string(found), "give points of the dimension of the mesh");

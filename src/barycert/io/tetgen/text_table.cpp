@@ -49,40 +49,37 @@ std::size_t behind_line(const TextTable& table, std::size_t from, SomeBytes& roo
     return size;
 }
 
-/// The first id in these lines; false if there is none that is a number. `found`: whether there is a row.
-bool first_id(const TextTable& table, std::size_t start, std::size_t stop, SomeBytes& room, bool& found,
-              std::int64_t& id) {
+/// The row that is the first in these lines, by its id, which may be wrong; `none` if there is no row.
+std::optional<std::size_t> first_row_in(const TextTable& table, std::size_t start, std::size_t stop, SomeBytes& room,
+                                        std::size_t none) {
     constexpr std::size_t enough = std::size_t{1} << 12, longest = 64;
     for (std::size_t size = std::min(enough, stop - start);; size = stop - start) {
         const std::string_view some = room.read(table, start, start + size);
         const bool all = size == stop - start;
         Scanner first{some.data(), some.data() + size};
-        found = first.next_row(first.end - (all ? 0 : longest));
-        if (found || all) return !found || first.integer(id);
+        if (!first.next_row(first.end - (all ? 0 : longest))) {
+            if (all) return none;
+            continue;
+        }
+        std::int64_t id = 0;
+        if (!first.integer(id) || id < table.base || id - table.base > max_count) return std::nullopt;
+        return static_cast<std::size_t>(id - table.base);
     }
 }
 
 /// Cuts the body at line ends; looks at the first id of each block. False if the ids cannot belong to a good file.
 bool append_blocks(const TextTable& table, std::vector<Block>& blocks) {
     const std::size_t begin = blocks.size();
-    std::size_t row = 0;
     SomeBytes room;
     const std::size_t size = table.input.size();
     for (std::size_t at = table.body; at < size;) {
         const std::size_t next = behind_line(table, std::min(size, at + block_size), room);
-        bool found = false;
-        std::int64_t id = 0;
-        if (!first_id(table, at, next, room, found, id)) return false;
-        if (found) {
-            if (id < table.base || id - table.base > max_count) return false;
-            row = static_cast<std::size_t>(id - table.base);
-        } else if (blocks.size() != begin) {
-            row = table.rows;  // nothing but comments: they can only follow the last row, or the check below fails
-        }
-        if (blocks.size() == begin ? row != 0 : row < blocks.back().first_row) return false;
-        if (row > table.rows) return false;
-        if (blocks.size() != begin) blocks.back().last_row = row;
-        blocks.push_back({&table, at, next, row, table.rows});
+        // Where there are but comments, they can only follow the last row, or a check fails.
+        const bool first = blocks.size() == begin;
+        const std::optional<std::size_t> row = first_row_in(table, at, next, room, first ? 0 : table.rows);
+        if (!row || *row > table.rows || (first ? *row != 0 : *row < blocks.back().first_row)) return false;
+        if (!first) blocks.back().last_row = *row;
+        blocks.push_back({&table, at, next, *row, table.rows});
         at = next;
     }
     return blocks.size() != begin || table.rows == 0;
@@ -199,7 +196,7 @@ void read_header(TextTable& table, std::span<const char* const> header_names) {
                           base::quoted(field), "remove it or put # before it");
         if (!integer || value < 0 || value > max_count)
             refuse_count(table, field, i < header_names.size() ? header_names[i] : "columns");
-        table.header.push_back(value);
+        table.header.push_back(static_cast<std::size_t>(value));
     }
 }
 
@@ -226,29 +223,27 @@ std::vector<std::string_view> TextTable::first_row() const {
 TextTable open_table(const std::string& name, std::span<const char* const> header_names, int threads) {
     TextTable table;
     table.file = plain_or_packed(name);
+    bool has_first_row = false;  // in the first block of a larger file
     const auto header_in = [&](std::string_view block, std::uint64_t) -> Status {
         TextTable beginning;
         beginning.file = table.file;
         beginning.bytes = block.substr(0, block.rfind('\n') + 1);  // no comment is cut, and no number
         Status read = status_of([&] { read_header(beginning, header_names); });
+        has_first_row = beginning.body != 0 && !beginning.first_row().empty();
         return beginning.body == 0 ? Status(Done{}) : read;  // after many comments
     };
     table.input = base::InputFile::open(table.file, base::save_first, base::Text::all).value();
     table.threads = threads;
     table.input.check(base::Text::all, table.file, header_in).value();
-    bool has_first_row = false;
-    if (table.input.size() > base::first_block) {
+    if (has_first_row) {
         table.data = base::MappedFile::read(table.input, table.file, base::first_block).value();
         table.bytes = table.data.bytes().substr(0, base::first_block);
         table.bytes = table.bytes.substr(0, table.bytes.rfind('\n') + 1);
-        Scanner scanner{table.begin(), table.end()};
-        const bool has_header = scanner.next_row(table.end());
-        if (has_header) scanner.skip_line();
-        has_first_row = has_header && scanner.next_row(table.end());
+    } else {
+        table.read_whole();
     }
-    if (!has_first_row) table.read_whole();
     read_header(table, header_names);
-    table.rows = static_cast<std::size_t>(table.header[0]);
+    table.rows = table.header[0];
     return table;
 }
 

@@ -26,8 +26,8 @@ enum class ColumnKind : std::uint8_t {
 /// Columns alike. Values go to one of these vectors, k of row r to r * step + k, or a field each, or are checked alone.
 struct Columns {
     ColumnKind kind = ColumnKind::id;
-    std::size_t count = 0;
-    std::string name;         ///< of one of them, in messages
+    std::size_t count = 1;
+    std::string name{};       ///< of one of them, in messages
     std::int64_t limit = 0;   ///< of an index
     std::string refers_to{};  ///< of an index: what it counts
 
@@ -42,13 +42,13 @@ struct Columns {
 struct TextTable {
     std::string file;
     base::InputFile input;
-    int threads = 1;                   ///< that read it
-    base::MappedFile data;             ///< all of it, or its first block
-    bool is_whole = false;             ///< all of it
-    std::string_view bytes;            ///< of data: whole lines, the first row among them
-    std::size_t header_at = 0;         ///< the byte at which the first field of the header begins
-    std::size_t body = 0;              ///< the byte at which the line after the header begins; 0: no header is read yet
-    std::vector<std::int64_t> header;  ///< the numbers of the header, at least the count of rows
+    int threads = 1;                  ///< that read it
+    base::MappedFile data;            ///< all of it, or its first block
+    bool is_whole = false;            ///< all of it
+    std::string_view bytes;           ///< of data: whole lines, the first row among them
+    std::size_t header_at = 0;        ///< the byte at which the first field of the header begins
+    std::size_t body = 0;             ///< the byte at which the line after the header begins; 0: no header is read yet
+    std::vector<std::size_t> header;  ///< the numbers of the header, at least the count of rows
 
     std::size_t rows = 0;
     int base = 0;
@@ -64,7 +64,7 @@ struct TextTable {
     std::size_t column_count() const;
 
     /// The header's number i, or what stands for it if the header is shorter.
-    std::int64_t header_field(std::size_t i, std::int64_t otherwise) const {
+    std::size_t header_field(std::size_t i, std::size_t otherwise) const {
         return i < header.size() ? header[i] : otherwise;
     }
     std::int64_t limit() const { return static_cast<std::int64_t>(rows); }
