@@ -59,32 +59,27 @@ double value_at(const ExactPoint& p, const double* values, std::size_t stride, s
     return core::round_quotient(sum, p.denominator, unit.exponent - 1074);
 }
 
-struct Segment {
-    int dimension;
-    std::span<const double> a, b;
-};
-
-Status check(const Segment& s) {
-    if (s.dimension < 1 || s.dimension > 3)
-        return file_error({}, "dimension of a segment", "1, 2 or 3", std::to_string(s.dimension),
+Status check_segment(int dimension, std::span<const double> a, std::span<const double> b) {
+    if (dimension < 1 || dimension > 3)
+        return file_error({}, "dimension of a segment", "1, 2 or 3", std::to_string(dimension),
                           "choose another dimension");
-    if (s.a.size() != s.b.size() || s.a.size() < static_cast<std::size_t>(s.dimension))
+    if (a.size() != b.size() || a.size() < static_cast<std::size_t>(dimension))
         return file_error({}, "the ends of a segment",
-                          std::to_string(s.dimension) + " coordinates and as many attributes at both ends",
-                          std::to_string(s.a.size()) + " and " + std::to_string(s.b.size()) + " numbers",
+                          std::to_string(dimension) + " coordinates and as many attributes at both ends",
+                          std::to_string(a.size()) + " and " + std::to_string(b.size()) + " numbers",
                           "give a number for each coordinate and attribute of each end");
-    const std::size_t i = base::first_not_finite(s.a), k = base::first_not_finite(s.b);
-    if (i == s.a.size() && k == i) return Done{};
+    const std::size_t i = base::first_not_finite(a), k = base::first_not_finite(b);
+    if (i == a.size() && k == i) return Done{};
     return base::not_finite(
         "number " + std::to_string(std::min(i, k)) + " of the " + (i <= k ? "first" : "second") + " end",
-        i <= k ? s.a[i] : s.b[k], "leave the segment out");
+        i <= k ? a[i] : b[k], "leave the segment out");
 }
 
 /// What is left of a segment, exactly: each end is as given, or where a form is zero.
 struct SegmentClipper {
     using End = std::optional<ExactPoint>;
 
-    const Segment& segment;
+    std::span<const double> first, second;  ///< the ends given
     End a = {}, b = {};
     bool empty = false;
 
@@ -101,14 +96,14 @@ struct SegmentClipper {
 
     ClippedSegment result() const {
         if (empty) return {};
-        return {false, a.has_value(), b.has_value(), row(a, segment.a), row(b, segment.b)};
+        return {false, a.has_value(), b.has_value(), row(a, first), row(b, second)};
     }
 
     std::vector<double> row(const End& end, std::span<const double> original) const {
         std::vector<double> numbers(original.begin(), original.end());
         if (!end) return numbers;
         for (std::size_t k = 0; k < numbers.size(); ++k) {
-            const double ends[2] = {segment.a[k], segment.b[k]};
+            const double ends[2] = {first[k], second[k]};
             numbers[k] = value_at(*end, ends, 1, 2);
         }
         return numbers;
@@ -116,21 +111,20 @@ struct SegmentClipper {
 };
 
 /// normal . x + offset at both ends, in one unit.
-Form distance_form(const Segment& s, const HalfSpace& h) {
-    const auto d = static_cast<std::size_t>(s.dimension);
+Form distance_form(std::size_t d, const double* a, const double* b, const HalfSpace& h) {
     core::Unit of_normal, of_points;
     of_normal.add(h.offset);
     of_points.add(1);
     for (std::size_t k = 0; k < d; ++k) {
         of_normal.add(h.normal[k]);
-        of_points.add(s.a[k]);
-        of_points.add(s.b[k]);
+        of_points.add(a[k]);
+        of_points.add(b[k]);
     }
     const auto product = [&](double n, double x) { return of_normal.integer(n) * of_points.integer(x); };
     Form form;
     for (std::size_t end = 0; end < 2; ++end) {
         form[end] = product(h.offset, 1);
-        for (std::size_t k = 0; k < d; ++k) form[end] = form[end] + product(h.normal[k], (end == 0 ? s.a : s.b)[k]);
+        for (std::size_t k = 0; k < d; ++k) form[end] = form[end] + product(h.normal[k], (end == 0 ? a : b)[k]);
     }
     return form;
 }
@@ -245,22 +239,21 @@ namespace barycert {
 
 Result<ClippedSegment> clip_segment(int dimension, std::span<const double> a, std::span<const double> b,
                                     const HalfSpace& bound) {
-    const raster::Segment segment{dimension, a, b};
-    if (Status good = raster::check(segment); !good) return good.error();
-    for (std::size_t k = 0; k <= static_cast<std::size_t>(dimension); ++k) {
-        const double x = k < static_cast<std::size_t>(dimension) ? bound.normal[k] : bound.offset;
+    if (Status good = raster::check_segment(dimension, a, b); !good) return good.error();
+    const auto d = static_cast<std::size_t>(dimension);
+    for (std::size_t k = 0; k <= d; ++k) {
+        const double x = k < d ? bound.normal[k] : bound.offset;
         if (!std::isfinite(x)) return raster::bad_bound("the half-space", "finite numbers", x);
     }
-    raster::SegmentClipper clipper{segment};
-    clipper.clip(raster::distance_form(segment, bound));
+    raster::SegmentClipper clipper{a, b};
+    clipper.clip(raster::distance_form(d, a.data(), b.data(), bound));
     return clipper.result();
 }
 
 Result<ClippedSegment> clip_segment(int dimension, std::span<const double> a, std::span<const double> b,
                                     const ClipBox& box) {
-    const raster::Segment segment{dimension, a, b};
-    if (Status good = raster::check(segment); !good) return good.error();
-    raster::SegmentClipper clipper{segment};
+    if (Status good = raster::check_segment(dimension, a, b); !good) return good.error();
+    raster::SegmentClipper clipper{a, b};
     for (std::size_t k = 0; k < static_cast<std::size_t>(dimension); ++k) {
         for (const double x : {box.min[k], box.max[k]}) {
             if (std::isnan(x)) return raster::bad_bound("a bound of the box", "a number", x);

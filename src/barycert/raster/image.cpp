@@ -62,11 +62,9 @@ Status write_png(const std::string& path, const Image& image) {
     }
     const auto width = static_cast<std::size_t>(image.width), height = static_cast<std::size_t>(image.height);
     if (std::max(width, height) > io::longest_png_side)
-        return Error{.what = "the image is too long for a PNG file",
-                     .file = path,
-                     .expected = "at most " + std::to_string(io::longest_png_side) + " pixels a side",
-                     .found = by(image.width, image.height),
-                     .remedy = "choose a smaller size"};
+        return file_error(path, "the image is too long for a PNG file",
+                          "at most " + std::to_string(io::longest_png_side) + " pixels a side",
+                          by(image.width, image.height), "choose a smaller size");
     const std::size_t row = image.offset(0, 1);
     const auto copy_row = [&](std::size_t r, std::uint8_t* pixels) {
         std::copy_n(image.data.data() + (height - 1 - r) * row, row, pixels);
