@@ -214,13 +214,6 @@ private:
     std::vector<ExactPoint> made_;
 };
 
-/// The bounds beyond which a vertex lies, as a mask.
-unsigned beyond(const double* vertex) {
-    unsigned mask = 0;
-    for (int b = 0; b < bounds; ++b) mask |= static_cast<unsigned>(side(vertex, b) < 0) << b;
-    return mask;
-}
-
 Status check_rows(std::span<const double> vertices) {
     if (vertices.size() < 12 || vertices.size() % 3 != 0)
         return file_error(
@@ -274,21 +267,21 @@ Result<Clip> clip_triangle(std::span<const double> vertices, std::vector<double>
     const ExactEnvironment environment;  // for comparisons of subnormal numbers
     if (Status good = check_rows(vertices); !good) return good.error();
     const std::size_t row = vertices.size() / 3;
-    unsigned any = 0, all = (1U << bounds) - 1;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const unsigned mask = beyond(vertices.data() + row * i);
-        any |= mask;
-        all &= mask;
+    std::array<int, bounds> beyond{};  // how many vertices lie there
+    for (std::size_t b = 0; b < bounds; ++b) {
+        for (std::size_t i = 0; i < 3; ++i)
+            beyond[b] += side(vertices.data() + row * i, static_cast<int>(b)) < 0 ? 1 : 0;
     }
+    const int most = std::ranges::max(beyond);
     polygon.clear();
-    if (all != 0) return Clip::outside;
-    if (any == 0) {
+    if (most == 3) return Clip::outside;
+    if (most == 0) {
         polygon.assign(vertices.begin(), vertices.end());
     } else {
         TriangleClipper clipper(vertices.data(), row);
-        for (int b = 0; b < bounds; ++b) {
+        for (std::size_t b = 0; b < bounds; ++b) {
             // A bound beyond which no vertex lies has nothing of the triangle beyond it.
-            if ((any >> b & 1U) != 0 && !clipper.clip(b)) return Clip::outside;
+            if (beyond[b] != 0 && !clipper.clip(static_cast<int>(b))) return Clip::outside;
         }
         clipper.append_to(polygon);
     }
@@ -297,7 +290,7 @@ Result<Clip> clip_triangle(std::span<const double> vertices, std::vector<double>
         polygon.clear();
         return Clip::at_eye;
     }
-    return any == 0 ? Clip::inside : Clip::cut;
+    return most == 0 ? Clip::inside : Clip::cut;
 }
 
 }  // namespace barycert

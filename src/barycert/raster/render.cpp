@@ -212,19 +212,14 @@ private:
 
     /// What is linear in the window at each vertex: the depth, the scale if there is one, attributes times the scale.
     std::vector<double> linear_values() const {
-        std::array<double, 3> depth = part_.w;
-        if (scene_.interpolation == Interpolation::projected_z) {
-            for (std::size_t i = 0; i < 3; ++i) depth[i] = (part_.z[i] + 1) / 2;
-        }
-        const double least = *std::ranges::min_element(depth);
+        const bool affine = scene_.interpolation == Interpolation::affine;
+        const bool projected = scene_.interpolation == Interpolation::projected_z;
+        const double least = std::ranges::min(part_.w);
         std::vector<double> values;
         for (std::size_t i = 0; i < 3; ++i) {
+            const double scale = affine ? 1 : projected ? 1 / ((part_.z[i] + 1) / 2) : least / part_.w[i];
             values.push_back(part_.z[i]);
-            double scale = 1;
-            if (scene_.interpolation != Interpolation::affine) {
-                scale = (scene_.interpolation == Interpolation::projected_z ? 1 : least) / depth[i];
-                values.push_back(scale);
-            }
+            if (!affine) values.push_back(scale);
             for (std::size_t k = 0; k < n_; ++k) values.push_back(scale * part_.attributes[n_ * i + k]);
         }
         return values;

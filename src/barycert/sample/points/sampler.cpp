@@ -13,19 +13,18 @@ namespace {
 class SortedRows {
 public:
     SortedRows(const SamplerData& data, const SampleOptions& options, std::size_t size)
-        : data_(data), rows_(data.rows.take()), columns_(data.columns.size()) {
-        // One more for all points left out.
-        sampler_.emplace(data, options, make_room(*rows_, size + 1, data.width, options.outside));
-    }
+        : data_(data),
+          rows_(data.rows.take()),
+          sampler_(data, options, make_room(*rows_, size + 1, data.width, options.outside)) {}  // one for all left out
 
     void operator()(const locate::PointRecord* points, std::size_t count, const locate::Place* owner,
                     const Feature* feature) {
-        (*sampler_)(points, count, owner, feature);
+        sampler_(points, count, owner, feature);
     }
 
     /// The rows, and what was counted. Once, in the end.
     SampleCounts write(const locate::SortedPoints& sorted, std::size_t first, Table& out) {
-        sampler_->flush();
+        sampler_.flush();
         const std::size_t last = sorted.size(), left_out = sorted.left_out();
         // Points left out one by one: by their distances, or in a cell that bulges out of its part.
         const bool alone = !out.distances.empty() || data_.located().mapped != nullptr;
@@ -33,7 +32,7 @@ public:
             rows_->cells[last] = -1;
             rows_->features[last] = Feature::outside;
             std::fill_n(values(last), data_.width, 0);
-            sampler_->leave_out(left_out, static_cast<std::uint32_t>(last));
+            sampler_.leave_out(left_out, static_cast<std::uint32_t>(last));
         }
         const auto ahead = [&](std::size_t place) {
             __builtin_prefetch(&rows_->cells[place]);
@@ -43,8 +42,8 @@ public:
         sorted.for_each_in_callers_order(ahead, [&](std::size_t i, std::size_t place) {
             if (place == last && alone) {  // the row of all points left out serves for one after the other
                 if (!out.distances.empty()) rows_->distances[last] = 0;
-                sampler_->push(sorted.record(i, last), -1, Feature::outside);
-                sampler_->flush();
+                sampler_.push(sorted.record(i, last), -1, Feature::outside);
+                sampler_.flush();
             }
             const double* const from = values(place) + data_.hidden;
             out.cells[first + i] = rows_->cells[place];
@@ -53,7 +52,7 @@ public:
             if (!out.distances.empty()) out.distances[first + i] = rows_->distances[place];
         });
         data_.rows.put(std::move(rows_));
-        return sampler_->counts();
+        return sampler_.counts();
     }
 
 private:
@@ -61,8 +60,8 @@ private:
 
     const SamplerData& data_;
     std::unique_ptr<FoundRows> rows_;
-    std::size_t columns_;
-    std::optional<ChunkSampler> sampler_;
+    std::size_t columns_ = data_.columns.size();
+    ChunkSampler sampler_;
 };
 
 std::size_t components_of(const Field* field) {
