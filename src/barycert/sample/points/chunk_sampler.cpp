@@ -78,9 +78,9 @@ void quadratic_projected(const SamplerData& data, Rounding rounding, std::size_t
     const MeshQueries query{data.index().simplex, std::span(reference.vertices).first(d * corners),
                             std::span(local).first(corners), std::span(&only, 1), std::span(reference.at).first(d)};
     const NodalValues<double> nodal{values, static_cast<int>(data.point_components)};
-    static_cast<void>(interpolate_quadratic(query, std::span(local).subspan(corners, mids), nodal,
-                                            std::span(out, data.point_components), &tiers, rounding)
-                          .has_value());
+    interpolate_quadratic(query, std::span(local).subspan(corners, mids), nodal, std::span(out, data.point_components),
+                          &tiers, rounding)
+        .value();
 }
 
 /// Under the policy nearest: sets one value a column. Point fields get, correctly rounded or plain as asked for, the
@@ -307,9 +307,7 @@ void ChunkSampler::interpolate_second_order(const locate::PointRecord* points, s
     const MeshQueries queries{index.simplex, mesh.points, mesh.cells, cells_, points_};
     const NodalValues<double> values{data_.values, static_cast<int>(data_.point_components)};
     // Sizes fit, coordinates are finite and the environment has been looked at: there is no Error.
-    static_cast<void>(
-        interpolate_quadratic(queries, mesh.mid_nodes, values, values_, &counts_.values, options_.rounding)
-            .has_value());
+    interpolate_quadratic(queries, mesh.mid_nodes, values, values_, &counts_.values, options_.rounding).value();
     for (std::size_t i = 0; i < count; ++i)
         std::copy_n(values_.begin() + static_cast<std::ptrdiff_t>(data_.point_components * i), data_.point_components,
                     row(points[inside_[i].point]));
