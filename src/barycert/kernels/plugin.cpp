@@ -95,10 +95,7 @@ Result<Kernel> load_kernel_library(const std::string& path) {
     std::fegetenv(&before);
     void* const library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
     std::fesetenv(&before);
-    if (library == nullptr) {
-        const char* const why = dlerror();
-        return not_loaded(path, why == nullptr ? "" : why);
-    }
+    if (library == nullptr) return not_loaded(path, dlerror());
     const kernels::LibraryFunctions functions(library);
     const Description description = functions.described();
     std::fesetenv(&before);
