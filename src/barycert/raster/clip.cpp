@@ -12,7 +12,8 @@
 #include "barycert/environment.hpp"
 #include "barycert/raster.hpp"
 
-namespace barycert::raster {
+namespace barycert {
+namespace raster {
 namespace {
 
 using Form = std::array<core::Integer, 3>;  ///< of a segment, the first two; the third is zero
@@ -226,9 +227,7 @@ Status check_rows(std::span<const double> vertices) {
 }
 
 }  // namespace
-}  // namespace barycert::raster
-
-namespace barycert {
+}  // namespace raster
 
 Result<ClippedSegment> clip_segment(int dimension, std::span<const double> a, std::span<const double> b,
                                     const HalfSpace& bound) {

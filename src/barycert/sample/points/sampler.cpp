@@ -292,12 +292,11 @@ Status Sampler::evaluate(std::span<const double> points, const SampleOptions& op
     Status finite = locate::check_finite(points, data_->index().dimension(), first_point);
     if (!finite && options.nonfinite_points == NonfinitePoints::error) return finite;
     const std::size_t d = data_->index().dimension(), count = points.size() / d;
-    const std::span<const Mesh::Index> cells = out.cells;
-    const std::span<const Feature> features = out.features;
-    if (cells.size() != count || features.size() != count)
+    const std::vector<Mesh::Index>& cells = out.cells;
+    if (cells.size() != count || out.features.size() != count)
         return Error{.what = "size of the locations",
                      .expected = "one cell and one feature for each of " + std::to_string(count) + " points",
-                     .found = std::to_string(cells.size()) + " and " + std::to_string(features.size())};
+                     .found = std::to_string(cells.size()) + " and " + std::to_string(out.features.size())};
     if (Status good = locate::check_cells(cells, data_->index().cell_count()); !good) return good;
     for (std::size_t row = 0; !finite && row < count; ++row) {
         if (cells[row] >= 0 && !base::all_finite({&points[d * row], d}))
@@ -323,7 +322,7 @@ Status Sampler::evaluate(std::span<const double> points, const SampleOptions& op
                 __builtin_prefetch(&places[static_cast<std::size_t>(cells[row + ahead])]);
             const locate::Place owner = cells[row] < 0 ? -1 : places[static_cast<std::size_t>(cells[row])];
             if (owner >= 0) __builtin_prefetch(&index.cells[static_cast<std::size_t>(owner)]);
-            sampler.push(record, owner, features[row]);
+            sampler.push(record, owner, out.features[row]);
         }
         sampler.flush();
         counts = sampler.counts();
@@ -337,7 +336,7 @@ Status Sampler::evaluate(std::span<const double> points, const SampleOptions& op
     if (Status status = sample::apply_policies(points, finite.has_value(), options, first_point, out); !status)
         return status;
     out.counts.add(counts);
-    for (const Feature feature : features) out.counts.locations.add(feature);
+    for (const Feature feature : out.features) out.counts.locations.add(feature);
     return Done{};
 }
 
