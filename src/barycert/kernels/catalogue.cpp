@@ -18,27 +18,6 @@ double sum_of(const double* w, const double* f) {
     return sum;
 }
 
-struct Variant {
-    const char* suffix;
-    const Variants* functions;
-    const char* fails;
-};
-
-std::vector<Variant> available_variants() {
-    std::vector<Variant> list{
-        {"fast-math", &fast_math_variants,
-         "-ffast-math: the compiler's choice of reciprocals and sums on top of the formula's own faults"},
-        {"O0", &unoptimised_variants,
-         "-O0: the formula's own faults, bit for bit; any difference is a compiler's doing"}};
-#ifdef BARYCERT_CONTRACTED
-    if (__builtin_cpu_supports("fma") != 0) {
-        list.push_back({"contracted", &contracted_variants,
-                        "-ffp-contract=fast: ab-cd keeps one product exact and rounds the other; ab-ab is not 0"});
-    }
-#endif
-    return list;
-}
-
 // barycert's own kernels: exact signs, correctly rounded weights and values. They certify what they say, so that the
 // audit holds them to the last bit.
 
@@ -78,9 +57,18 @@ void add_formulas(std::vector<Kernel>& list, Simplex s, std::span<const Formula>
             k.weights = weights;
             k.interpolate = value;
         };
-        if (f.more.variants != nullptr) {
-            for (const Variant& v : available_variants())
-                add(v.suffix, v.fails, v.functions->*f.more.variants, base.interpolate);
+        if (const auto variant = f.more.variants; variant != nullptr) {
+            add("fast-math",
+                "-ffast-math: the compiler's choice of reciprocals and sums on top of the formula's own faults",
+                fast_math_variants.*variant, base.interpolate);
+            add("O0", "-O0: the formula's own faults, bit for bit; any difference is a compiler's doing",
+                unoptimised_variants.*variant, base.interpolate);
+#ifdef BARYCERT_CONTRACTED
+            if (__builtin_cpu_supports("fma") != 0)
+                add("contracted",
+                    "-ffp-contract=fast: ab-cd keeps one product exact and rounds the other; ab-ab is not 0",
+                    contracted_variants.*variant, base.interpolate);
+#endif
         }
         if (f.more.single != nullptr) add("float32", f.more.single_fails, f.more.single, f.more.single_value);
     }

@@ -141,11 +141,10 @@ void Host::give_back(Worker&& worker) {
 }
 
 /// -1 if the server is gone.
-int Host::ask_server(const ServerRequest& request, int with_socket) {
+int Host::ask_server(ServerRequest request, int with_socket) {
     const std::lock_guard lock(server_mutex_);
     alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(int))> control{};
-    ServerRequest copy = request;
-    iovec part{&copy, sizeof copy};
+    iovec part{&request, sizeof request};
     msghdr message{};
     message.msg_iov = &part;
     message.msg_iovlen = 1;

@@ -56,7 +56,7 @@ private:
     Host() = default;
     Worker take();
     void give_back(Worker&& worker);
-    int ask_server(const ServerRequest& request, int with_socket);
+    int ask_server(ServerRequest request, int with_socket);
     End begin(Worker& worker);
     int end(Worker& worker, int milliseconds = 0);
     End command(Worker& worker, Command command, int milliseconds);

@@ -2,18 +2,16 @@
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <pthread.h>
-#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
 
+#include "barycert/base/descriptor.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/kernels/channel.hpp"
 
@@ -33,11 +31,9 @@ public:
     GuardedArrays() : page_(static_cast<std::size_t>(sysconf(_SC_PAGESIZE))) {
         const int file = memfd_create("arrays", MFD_CLOEXEC);
         if (file < 0 || ftruncate(file, static_cast<off_t>(arrays * page_)) != 0) give_up();
-        void* const inner = mmap(nullptr, arrays * page_, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
-        void* const outer = mmap(nullptr, size(), PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-        if (inner == MAP_FAILED || outer == MAP_FAILED) give_up();
-        inner_ = static_cast<char*>(inner);
-        outer_ = static_cast<char*>(outer);
+        inner_ = base::map_memory(arrays * page_, PROT_READ | PROT_WRITE, MAP_SHARED, file).release();
+        outer_ = base::map_memory(size(), PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS).release();
+        if (inner_ == nullptr || outer_ == nullptr) give_up();
         for (std::size_t a = 0; a < arrays; ++a) {
             const int access = a == weights ? PROT_READ | PROT_WRITE : PROT_READ;
             if (mmap(outer_ + (2 * a + 1) * page_, page_, access, MAP_SHARED | MAP_FIXED, file,
@@ -134,15 +130,15 @@ const char* changed_environment() {
 }
 
 /// What the system clears in every process made of this one, by whatever call.
-const volatile int* the_original = nullptr;
+const volatile char* the_original = nullptr;
 
 void mark_original() {
     const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
-    void* const mark = mmap(nullptr, page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-    if (mark == MAP_FAILED) give_up();
+    char* const mark = base::map_memory(page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS).release();
+    if (mark == nullptr) give_up();
     madvise(mark, page, MADV_WIPEONFORK);
-    *static_cast<int*>(mark) = 1;
-    the_original = static_cast<const int*>(mark);
+    *mark = 1;
+    the_original = mark;
 }
 
 /// Processes that the kernel forks have no part in the answers: by fork() they end there, by other ways here.

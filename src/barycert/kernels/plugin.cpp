@@ -2,6 +2,7 @@
 #include <dlfcn.h>
 
 #include <algorithm>
+#include <cstring>
 
 #include "barycert/environment.hpp"
 #include "barycert/kernels/host.hpp"
@@ -12,11 +13,8 @@ namespace {
 
 using kernels::Description;
 
-/// Letters, digits, -, _ and ., so that a name survives shells, globs and file names.
-bool well_formed(std::string_view name) {
-    constexpr std::string_view usable = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_.";
-    return !name.empty() && name.find_first_not_of(usable) == std::string_view::npos;
-}
+/// What names are of, so that they survive shells, globs and file names.
+constexpr const char* usable = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_.";
 
 /// The kernel that a library describes, its functions aside.
 Result<Kernel> described(const std::string& path, const Description& d) {
@@ -33,7 +31,7 @@ Result<Kernel> described(const std::string& path, const Description& d) {
         return file_error(path, "the kernel library names an unknown simplex",
                           "segment, triangle, triangle3d, tetrahedron or triangle.perspective",
                           std::string("\"") + d.simplex + '"', "set info->simplex to one of these");
-    if (!well_formed(d.name))
+    if (d.name[0] == '\0' || d.name[std::strspn(d.name, usable)] != '\0')
         return file_error(path, "the kernel library has an unusable name", "letters, digits, -, _ and .",
                           std::string("\"") + d.name + '"', "set info->name accordingly");
     const std::string name = std::string(perspective ? "perspective-" : "") + d.name;
@@ -95,10 +93,7 @@ Result<Kernel> load_kernel_library(const std::string& path) {
     std::fegetenv(&before);
     void* const library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
     std::fesetenv(&before);
-    if (library == nullptr) {
-        const char* const why = dlerror();
-        return not_loaded(path, why == nullptr ? "" : why);
-    }
+    if (library == nullptr) return not_loaded(path, dlerror());
     const kernels::LibraryFunctions functions(library);
     const Description description = functions.described();
     std::fesetenv(&before);

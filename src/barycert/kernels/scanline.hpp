@@ -113,18 +113,16 @@ void by_increments(Stepped<T, n> (&v)[3], T x, T y, T (&out)[n]) {
         v[i + 1] = other;
     }
     const bool upper = y < v[1].y ? !(v[0].y < v[1].y) : v[1].y < v[2].y;
-    T other[n], step[n];
-    along_side(v[0], v[2], y, out);
-    along_side(v[upper ? 1 : 0], v[upper ? 2 : 1], y, other);
-    if (other[0] < out[0]) {
-        for (int i = 0; i < n; ++i) {
-            const T left = other[i];
-            other[i] = out[i];
-            out[i] = left;
-        }
+    T side[2][n], step[n];
+    along_side(v[0], v[2], y, side[0]);
+    along_side(v[upper ? 1 : 0], v[upper ? 2 : 1], y, side[1]);
+    const bool swapped = side[1][0] < side[0][0];
+    const T *const left = side[swapped ? 1 : 0], *const right = side[swapped ? 0 : 1];
+    for (int i = 0; i < n; ++i) {
+        out[i] = left[i];
+        step[i] = (right[i] - left[i]) / (right[0] - left[0]);
     }
-    for (int i = 0; i < n; ++i) step[i] = (other[i] - out[i]) / (other[0] - out[0]);
-    walk(out, step, x - out[0]);
+    walk(out, step, x - left[0]);
 }
 
 /// The weights are stepped as three attributes, each 1 at a vertex and 0 at the others.

@@ -14,10 +14,9 @@ CellMaps::CellMaps(const Mesh& mesh, bool products, bool curves) : mesh_(mesh), 
 }
 
 const iso::Reference* CellMaps::reference(std::size_t whole) const {
-    if (!has_shapes()) {
-        const bool curved = curved_edges(whole) != 0;
-        return curved ? iso::simplex_reference(mesh_.dimension, mesh_.dimension == 3 ? 10 : 6) : nullptr;
-    }
+    if (!has_shapes())
+        return curved_edges(whole) == 0 ? nullptr
+                                        : iso::simplex_reference(mesh_.dimension, mesh_.dimension == 3 ? 10 : 6);
     const std::uint8_t type = mesh_.shapes.types[whole];
     if (!is_curved_simplex(type)) return products_ ? iso::linear_reference(type) : nullptr;
     const auto begin = whole == 0 ? 0 : mesh_.shapes.ends[whole - 1];

@@ -13,14 +13,20 @@ using Edge = std::array<std::size_t, 2>;
 constexpr std::array<Edge, 6> tetrahedron_edges{{{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}};
 constexpr std::array<Edge, 3> triangle_edges{{{0, 1}, {1, 2}, {0, 2}}};
 
-constexpr std::array<std::size_t, 6> vtk_sequence{0, 1, 2, 3, 4, 5};
-constexpr std::array<std::size_t, 6> tetgen15_sequence{5, 3, 0, 1, 4, 2};
-constexpr std::array<std::size_t, 6> gmsh_sequence{0, 1, 2, 3, 5, 4};
-constexpr std::array<std::size_t, 3> triangle_sequence{1, 2, 0};
-
+struct Sequence {
+    MidEdgeOrder order;
+    std::array<std::size_t, 6> edges;
+};
 /// The first of a dimension is taken where no cell can tell.
-constexpr std::array<MidEdgeOrder, 3> orders_3d{MidEdgeOrder::tetgen15, MidEdgeOrder::vtk, MidEdgeOrder::gmsh};
-constexpr std::array<MidEdgeOrder, 2> orders_2d{MidEdgeOrder::triangle, MidEdgeOrder::vtk};
+constexpr std::array<Sequence, 3> sequences_3d{{{MidEdgeOrder::tetgen15, {5, 3, 0, 1, 4, 2}},
+                                                {MidEdgeOrder::vtk, {0, 1, 2, 3, 4, 5}},
+                                                {MidEdgeOrder::gmsh, {0, 1, 2, 3, 5, 4}}}};
+constexpr std::array<Sequence, 2> sequences_2d{{{MidEdgeOrder::triangle, {1, 2, 0}}, {MidEdgeOrder::vtk, {0, 1, 2}}}};
+
+std::span<const Sequence> sequences_of(int dimension) {
+    if (dimension == 2) return sequences_2d;
+    return sequences_3d;
+}
 
 /// The edge whose midpoint is strictly nearest to `node`, or edges.size().
 std::size_t nearest_edge(const Mesh& mesh, const Mesh::Index* corners, Mesh::Index node, std::span<const Edge> edges) {
@@ -68,18 +74,16 @@ std::span<const Edge> edges_of(int dimension) {
 }
 
 std::span<const std::size_t> edge_sequence(MidEdgeOrder order, int dimension) {
-    if (order == MidEdgeOrder::vtk) return std::span<const std::size_t>(vtk_sequence).first(dimension == 2 ? 3 : 6);
-    if (order == MidEdgeOrder::triangle && dimension == 2) return triangle_sequence;
-    if (order == MidEdgeOrder::tetgen15 && dimension == 3) return tetgen15_sequence;
-    if (order == MidEdgeOrder::gmsh && dimension == 3) return gmsh_sequence;
-    return {};
+    const auto all = sequences_of(dimension);
+    const auto found = std::ranges::find(all, order, &Sequence::order);
+    if (found == all.end()) return {};
+    return std::span(found->edges).first(edges_of(dimension).size());
 }
 
 std::optional<MidEdgeVote> detect_mid_edge_order(const Mesh& mesh) {
     const ExactEnvironment environment;
     const std::span<const Edge> edges = edges_of(mesh.dimension);
-    const std::span<const MidEdgeOrder> orders =
-        mesh.dimension == 2 ? std::span<const MidEdgeOrder>(orders_2d) : std::span<const MidEdgeOrder>(orders_3d);
+    const std::span<const Sequence> sequences = sequences_of(mesh.dimension);
     std::array<std::size_t, 3> votes{};
     std::size_t voters = 0;
     for (std::size_t cell = 0; cell < mesh.cell_count(); ++cell) {
@@ -92,14 +96,11 @@ std::optional<MidEdgeVote> detect_mid_edge_order(const Mesh& mesh) {
         }
         if (abstains) continue;
         ++voters;
-        for (std::size_t i = 0; i < orders.size(); ++i) {
-            const std::span<const std::size_t> sequence = edge_sequence(orders[i], mesh.dimension);
-            if (std::equal(sequence.begin(), sequence.end(), found.begin())) ++votes[i];
-        }
+        for (std::size_t i = 0; i < sequences.size(); ++i) votes[i] += found == sequences[i].edges ? 1 : 0;
     }
-    if (voters == 0) return MidEdgeVote{orders[0], true};
-    for (std::size_t i = 0; i < orders.size(); ++i) {
-        if (2 * votes[i] > voters) return MidEdgeVote{orders[i], false};
+    if (voters == 0) return MidEdgeVote{sequences[0].order, true};
+    for (std::size_t i = 0; i < sequences.size(); ++i) {
+        if (2 * votes[i] > voters) return MidEdgeVote{sequences[i].order, false};
     }
     return std::nullopt;
 }

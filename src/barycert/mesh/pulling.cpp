@@ -57,9 +57,8 @@ public:
         });
     }
     bool is_edge(Index a, Index b) const {
-        return std::ranges::any_of(of(a), [&](std::size_t r) {
-            return follows(rings_[r], a, b) || follows(rings_[r], b, a);
-        });
+        return std::ranges::any_of(of(a),
+                                   [&](std::size_t r) { return follows(rings_[r], a, b) || follows(rings_[r], b, a); });
     }
 
     /// Turns rings so that each edge is passed both ways. False if an edge is not one of two faces.
@@ -182,10 +181,8 @@ public:
         const auto& of_type = rings_of(type);
         any_ = nodes.empty() ? 0 : nodes.front();
         if (type == vtk_polyhedron) return cut_rings(cell, rings_of_polyhedron(cell), true);
-        if (mesh_.dimension == 2 && of_type.empty()) {
-            const auto own = [](Index node) { return node; };
-            return add(cut_polygon(type, {nodes.begin(), nodes.end()}, own), own);
-        }
+        if (mesh_.dimension == 2 && of_type.empty())
+            return add(cut_polygon(type, {nodes.begin(), nodes.end()}, std::identity()), std::identity());
         const auto rank = [&](Index place) { return nodes[static_cast<std::size_t>(place)]; };
         // Which node is lowest, of all and of each face, tells how the cell is cut.
         std::uint64_t key = type;
@@ -235,10 +232,7 @@ private:
         for (auto& ring : rings) {
             for (Index& node : ring) node = static_cast<Index>(std::ranges::lower_bound(nodes, node) - nodes.begin());
         }
-        if (mesh_.dimension == 2) {
-            if (rings.empty()) return add({}, own);
-            return add(cut_polygon(0, rings.front(), own), own);
-        }
+        if (mesh_.dimension == 2) return add(rings.empty() ? Parts() : cut_polygon(0, rings.front(), own), own);
         Faces faces(std::move(rings), nodes.size());
         if (must_close && !faces.orient() && !open) open = cell;
         add(cut_solid(faces, nodes.size(), own), own);

@@ -5,18 +5,9 @@
 
 namespace barycert {
 
-namespace {
-
-template <class Counts, class... Member>
-void add_members(Counts& to, const Counts& from, Member... member) {
-    ((to.*member += from.*member), ...);
-}
-
-}  // namespace
-
 void WayCounts::add(const WayCounts& other) {
-    add_members(*this, other, &WayCounts::no_cell_near, &WayCounts::walk, &WayCounts::contested,
-                &WayCounts::candidates);
+    using W = WayCounts;
+    for (const auto count : {&W::no_cell_near, &W::walk, &W::contested, &W::candidates}) this->*count += other.*count;
 }
 
 void LocationCounts::add(Feature f, std::uint64_t count) {
@@ -27,15 +18,17 @@ void LocationCounts::add(Feature f, std::uint64_t count) {
 }
 
 void LocationCounts::add(const LocationCounts& other) {
-    add_members(*this, other, &LocationCounts::interior, &LocationCounts::face, &LocationCounts::edge,
-                &LocationCounts::vertex, &LocationCounts::outside, &LocationCounts::not_finite);
+    using L = LocationCounts;
+    for (const auto count : {&L::interior, &L::face, &L::edge, &L::vertex, &L::outside, &L::not_finite})
+        this->*count += other.*count;
     tests.add(other.tests);
     ways.add(other.ways);
 }
 
 void SampleCounts::add(const SampleCounts& other) {
-    add_members(*this, other, &SampleCounts::snapped, &SampleCounts::extrapolated, &SampleCounts::without_value,
-                &SampleCounts::undecided, &SampleCounts::unmapped);
+    using S = SampleCounts;
+    for (const auto count : {&S::snapped, &S::extrapolated, &S::without_value, &S::undecided, &S::unmapped})
+        this->*count += other.*count;
     locations.add(other.locations);
     values.add(other.values);
     // Bits of numbers that are not negative compare as they do, whatever the environment does to subnormal ones.

@@ -147,7 +147,7 @@ Status Distribution::swap_values(std::span<const Mesh::Index> owners, const std:
     };
     Parcels<char> answers;
     std::vector<char>& bytes = answers.values;
-    Status room = exchange_.everywhere([&]() -> Status {
+    Status room = exchange_.everywhere([&] {
         // For each point that a partner asks for a bit, set if it has an owner here; for each of these the number of
         // the owner, and the tuple.
         for (std::size_t k = 0; k < exchange_.partners().size(); ++k) {
@@ -165,11 +165,10 @@ Status Distribution::swap_values(std::span<const Mesh::Index> owners, const std:
             }
             answers.close();
         }
-        if (exchange_.partners().empty()) return Done{};
-        best_.assign(points_.count, {std::numeric_limits<std::int64_t>::max(), exchange_.size()});
+        if (!exchange_.partners().empty())
+            best_.assign(points_.count, {std::numeric_limits<std::int64_t>::max(), exchange_.size()});
         for (std::size_t i = 0; i < best_.size(); ++i)
             if (owners[i] >= 0) best_[i] = {number(owners[i]), exchange_.rank()};
-        return Done{};
     });
     if (!room) return room;
     return exchange_.swap(answers, answered_);

@@ -59,8 +59,7 @@ private:
     /// The box of one of this rank's points.
     Box box_at(std::size_t point) const;
 
-    // The steps of `ask`: the box of every piece and that of the points of every rank, to all, which sets the partners
-    // of the exchange; finer boxes; which points each partner is to be asked for, and their coordinates, three each.
+    // The steps of `ask`. The first sets the partners of the exchange; coordinates are three each.
     Status gather();
     Status refine();
     void choose_points(Parcels<double>& coordinates);

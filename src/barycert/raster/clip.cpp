@@ -12,7 +12,8 @@
 #include "barycert/environment.hpp"
 #include "barycert/raster.hpp"
 
-namespace barycert::raster {
+namespace barycert {
+namespace raster {
 namespace {
 
 using Form = std::array<core::Integer, 3>;  ///< of a segment, the first two; the third is zero
@@ -59,32 +60,27 @@ double value_at(const ExactPoint& p, const double* values, std::size_t stride, s
     return core::round_quotient(sum, p.denominator, unit.exponent - 1074);
 }
 
-struct Segment {
-    int dimension;
-    std::span<const double> a, b;
-};
-
-Status check(const Segment& s) {
-    if (s.dimension < 1 || s.dimension > 3)
-        return file_error({}, "dimension of a segment", "1, 2 or 3", std::to_string(s.dimension),
+Status check_segment(int dimension, std::span<const double> a, std::span<const double> b) {
+    if (dimension < 1 || dimension > 3)
+        return file_error({}, "dimension of a segment", "1, 2 or 3", std::to_string(dimension),
                           "choose another dimension");
-    if (s.a.size() != s.b.size() || s.a.size() < static_cast<std::size_t>(s.dimension))
+    if (a.size() != b.size() || a.size() < static_cast<std::size_t>(dimension))
         return file_error({}, "the ends of a segment",
-                          std::to_string(s.dimension) + " coordinates and as many attributes at both ends",
-                          std::to_string(s.a.size()) + " and " + std::to_string(s.b.size()) + " numbers",
+                          std::to_string(dimension) + " coordinates and as many attributes at both ends",
+                          std::to_string(a.size()) + " and " + std::to_string(b.size()) + " numbers",
                           "give a number for each coordinate and attribute of each end");
-    const std::size_t i = base::first_not_finite(s.a), k = base::first_not_finite(s.b);
-    if (i == s.a.size() && k == i) return Done{};
+    const std::size_t i = base::first_not_finite(a), k = base::first_not_finite(b);
+    if (i == a.size() && k == i) return Done{};
     return base::not_finite(
         "number " + std::to_string(std::min(i, k)) + " of the " + (i <= k ? "first" : "second") + " end",
-        i <= k ? s.a[i] : s.b[k], "leave the segment out");
+        i <= k ? a[i] : b[k], "leave the segment out");
 }
 
 /// What is left of a segment, exactly: each end is as given, or where a form is zero.
 struct SegmentClipper {
     using End = std::optional<ExactPoint>;
 
-    const Segment& segment;
+    std::span<const double> first, second;  ///< the ends given
     End a = {}, b = {};
     bool empty = false;
 
@@ -101,14 +97,14 @@ struct SegmentClipper {
 
     ClippedSegment result() const {
         if (empty) return {};
-        return {false, a.has_value(), b.has_value(), row(a, segment.a), row(b, segment.b)};
+        return {false, a.has_value(), b.has_value(), row(a, first), row(b, second)};
     }
 
     std::vector<double> row(const End& end, std::span<const double> original) const {
         std::vector<double> numbers(original.begin(), original.end());
         if (!end) return numbers;
         for (std::size_t k = 0; k < numbers.size(); ++k) {
-            const double ends[2] = {segment.a[k], segment.b[k]};
+            const double ends[2] = {first[k], second[k]};
             numbers[k] = value_at(*end, ends, 1, 2);
         }
         return numbers;
@@ -116,21 +112,20 @@ struct SegmentClipper {
 };
 
 /// normal . x + offset at both ends, in one unit.
-Form distance_form(const Segment& s, const HalfSpace& h) {
-    const auto d = static_cast<std::size_t>(s.dimension);
+Form distance_form(std::size_t d, const double* a, const double* b, const HalfSpace& h) {
     core::Unit of_normal, of_points;
     of_normal.add(h.offset);
     of_points.add(1);
     for (std::size_t k = 0; k < d; ++k) {
         of_normal.add(h.normal[k]);
-        of_points.add(s.a[k]);
-        of_points.add(s.b[k]);
+        of_points.add(a[k]);
+        of_points.add(b[k]);
     }
     const auto product = [&](double n, double x) { return of_normal.integer(n) * of_points.integer(x); };
     Form form;
     for (std::size_t end = 0; end < 2; ++end) {
         form[end] = product(h.offset, 1);
-        for (std::size_t k = 0; k < d; ++k) form[end] = form[end] + product(h.normal[k], (end == 0 ? s.a : s.b)[k]);
+        for (std::size_t k = 0; k < d; ++k) form[end] = form[end] + product(h.normal[k], (end == 0 ? a : b)[k]);
     }
     return form;
 }
@@ -220,13 +215,6 @@ private:
     std::vector<ExactPoint> made_;
 };
 
-/// The bounds beyond which a vertex lies, as a mask.
-unsigned beyond(const double* vertex) {
-    unsigned mask = 0;
-    for (int b = 0; b < bounds; ++b) mask |= static_cast<unsigned>(side(vertex, b) < 0) << b;
-    return mask;
-}
-
 Status check_rows(std::span<const double> vertices) {
     if (vertices.size() < 12 || vertices.size() % 3 != 0)
         return file_error(
@@ -239,28 +227,25 @@ Status check_rows(std::span<const double> vertices) {
 }
 
 }  // namespace
-}  // namespace barycert::raster
-
-namespace barycert {
+}  // namespace raster
 
 Result<ClippedSegment> clip_segment(int dimension, std::span<const double> a, std::span<const double> b,
                                     const HalfSpace& bound) {
-    const raster::Segment segment{dimension, a, b};
-    if (Status good = raster::check(segment); !good) return good.error();
-    for (std::size_t k = 0; k <= static_cast<std::size_t>(dimension); ++k) {
-        const double x = k < static_cast<std::size_t>(dimension) ? bound.normal[k] : bound.offset;
+    if (Status good = raster::check_segment(dimension, a, b); !good) return good.error();
+    const auto d = static_cast<std::size_t>(dimension);
+    for (std::size_t k = 0; k <= d; ++k) {
+        const double x = k < d ? bound.normal[k] : bound.offset;
         if (!std::isfinite(x)) return raster::bad_bound("the half-space", "finite numbers", x);
     }
-    raster::SegmentClipper clipper{segment};
-    clipper.clip(raster::distance_form(segment, bound));
+    raster::SegmentClipper clipper{a, b};
+    clipper.clip(raster::distance_form(d, a.data(), b.data(), bound));
     return clipper.result();
 }
 
 Result<ClippedSegment> clip_segment(int dimension, std::span<const double> a, std::span<const double> b,
                                     const ClipBox& box) {
-    const raster::Segment segment{dimension, a, b};
-    if (Status good = raster::check(segment); !good) return good.error();
-    raster::SegmentClipper clipper{segment};
+    if (Status good = raster::check_segment(dimension, a, b); !good) return good.error();
+    raster::SegmentClipper clipper{a, b};
     for (std::size_t k = 0; k < static_cast<std::size_t>(dimension); ++k) {
         for (const double x : {box.min[k], box.max[k]}) {
             if (std::isnan(x)) return raster::bad_bound("a bound of the box", "a number", x);
@@ -281,21 +266,21 @@ Result<Clip> clip_triangle(std::span<const double> vertices, std::vector<double>
     const ExactEnvironment environment;  // for comparisons of subnormal numbers
     if (Status good = check_rows(vertices); !good) return good.error();
     const std::size_t row = vertices.size() / 3;
-    unsigned any = 0, all = (1U << bounds) - 1;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const unsigned mask = beyond(vertices.data() + row * i);
-        any |= mask;
-        all &= mask;
+    std::array<int, bounds> beyond{};  // how many vertices lie there
+    for (std::size_t b = 0; b < bounds; ++b) {
+        for (std::size_t i = 0; i < 3; ++i)
+            beyond[b] += side(vertices.data() + row * i, static_cast<int>(b)) < 0 ? 1 : 0;
     }
+    const int most = std::ranges::max(beyond);
     polygon.clear();
-    if (all != 0) return Clip::outside;
-    if (any == 0) {
+    if (most == 3) return Clip::outside;
+    if (most == 0) {
         polygon.assign(vertices.begin(), vertices.end());
     } else {
         TriangleClipper clipper(vertices.data(), row);
-        for (int b = 0; b < bounds; ++b) {
+        for (std::size_t b = 0; b < bounds; ++b) {
             // A bound beyond which no vertex lies has nothing of the triangle beyond it.
-            if ((any >> b & 1U) != 0 && !clipper.clip(b)) return Clip::outside;
+            if (beyond[b] != 0 && !clipper.clip(static_cast<int>(b))) return Clip::outside;
         }
         clipper.append_to(polygon);
     }
@@ -304,7 +289,7 @@ Result<Clip> clip_triangle(std::span<const double> vertices, std::vector<double>
         polygon.clear();
         return Clip::at_eye;
     }
-    return any == 0 ? Clip::inside : Clip::cut;
+    return most == 0 ? Clip::inside : Clip::cut;
 }
 
 }  // namespace barycert

@@ -68,8 +68,7 @@ struct SortedTriangle {
     std::int32_t begin, middle,
         end;  ///< rows begin ... middle - 1 meet the lower short side, middle ... end - 1 the upper
 
-    SortedTriangle(const double* vertices, std::int32_t height) {
-        vertex[0] = vertices, vertex[1] = vertices + 2, vertex[2] = vertices + 4;
+    SortedTriangle(const double* vertices, std::int32_t height) : vertex{vertices, vertices + 2, vertices + 4} {
         if (vertex[1][1] < vertex[0][1]) std::swap(vertex[0], vertex[1]);
         if (vertex[2][1] < vertex[1][1]) std::swap(vertex[1], vertex[2]);
         if (vertex[1][1] < vertex[0][1]) std::swap(vertex[0], vertex[1]);

@@ -22,60 +22,6 @@ Status check_sides(std::int64_t width, std::int64_t height) {
     return Done{};
 }
 
-}  // namespace
-
-Result<Image> blank_image(std::int32_t width, std::int32_t height, Rgba colour) {
-    if (Status good = check_sides(width, height); !good) return good.error();
-    Image image{width, height, {}};
-    image.data.resize(image.offset(0, height));
-    for (std::size_t i = 0; i < image.data.size(); i += 4)
-        std::copy_n(colour.begin(), 4, image.data.begin() + static_cast<std::ptrdiff_t>(i));
-    return image;
-}
-
-Status check_image(const Image& image) {
-    if (Status good = check_sides(image.width, image.height); !good) return good;
-    const std::size_t bytes = image.offset(0, image.height);
-    if (image.data.size() == bytes) return Done{};
-    return file_error({}, "the data of the image do not fit its size",
-                      std::to_string(bytes) + " bytes for " + by(image.width, image.height) + " pixels",
-                      std::to_string(image.data.size()), "give four bytes a pixel");
-}
-
-Result<Image> read_png(const std::string& path) {
-    Result<io::PngPixels> read = io::read_png_pixels(path, static_cast<std::uint64_t>(max_image_pixels));
-    if (!read) return read.error();
-    Image image{static_cast<std::int32_t>(read->width), static_cast<std::int32_t>(read->height), std::move(read->rows)};
-    // From the top to from the bottom, in place.
-    const auto row = static_cast<std::ptrdiff_t>(image.offset(0, 1));
-    for (std::ptrdiff_t low = 0, high = image.height - 1; low < high; ++low, --high)
-        std::swap_ranges(image.data.begin() + low * row, image.data.begin() + (low + 1) * row,
-                         image.data.begin() + high * row);
-    return image;
-}
-
-Status write_png(const std::string& path, const Image& image) {
-    if (Status good = check_image(image); !good) {
-        Error error = good.error();
-        error.file = path;
-        return error;
-    }
-    const auto width = static_cast<std::size_t>(image.width), height = static_cast<std::size_t>(image.height);
-    if (std::max(width, height) > io::longest_png_side)
-        return Error{.what = "the image is too long for a PNG file",
-                     .file = path,
-                     .expected = "at most " + std::to_string(io::longest_png_side) + " pixels a side",
-                     .found = by(image.width, image.height),
-                     .remedy = "choose a smaller size"};
-    const std::size_t row = image.offset(0, 1);
-    const auto copy_row = [&](std::size_t r, std::uint8_t* pixels) {
-        std::copy_n(image.data.data() + (height - 1 - r) * row, row, pixels);
-    };
-    return io::write_png_rows(path, width, height, copy_row, io::PngContent::shades);
-}
-
-namespace {
-
 /// The greatest integer that is not above u * size, the product taken without rounding. Preconditions: |u| < 2,
 /// 1 <= size <= 2^26, so that all is far from overflow.
 ///
@@ -127,6 +73,54 @@ TexelPair texels_at(double u, std::int32_t size, Wrap wrap, Filter filter) {
 }
 
 }  // namespace
+
+Result<Image> blank_image(std::int32_t width, std::int32_t height, Rgba colour) {
+    if (Status good = check_sides(width, height); !good) return good.error();
+    Image image{width, height, {}};
+    image.data.resize(image.offset(0, height));
+    for (std::size_t i = 0; i < image.data.size(); i += 4)
+        std::copy_n(colour.begin(), 4, image.data.begin() + static_cast<std::ptrdiff_t>(i));
+    return image;
+}
+
+Status check_image(const Image& image) {
+    if (Status good = check_sides(image.width, image.height); !good) return good;
+    const std::size_t bytes = image.offset(0, image.height);
+    if (image.data.size() == bytes) return Done{};
+    return file_error({}, "the data of the image do not fit its size",
+                      std::to_string(bytes) + " bytes for " + by(image.width, image.height) + " pixels",
+                      std::to_string(image.data.size()), "give four bytes a pixel");
+}
+
+Result<Image> read_png(const std::string& path) {
+    Result<io::PngPixels> read = io::read_png_pixels(path, static_cast<std::uint64_t>(max_image_pixels));
+    if (!read) return read.error();
+    Image image{static_cast<std::int32_t>(read->width), static_cast<std::int32_t>(read->height), std::move(read->rows)};
+    // From the top to from the bottom, in place.
+    const auto row = static_cast<std::ptrdiff_t>(image.offset(0, 1));
+    for (std::ptrdiff_t low = 0, high = image.height - 1; low < high; ++low, --high)
+        std::swap_ranges(image.data.begin() + low * row, image.data.begin() + (low + 1) * row,
+                         image.data.begin() + high * row);
+    return image;
+}
+
+Status write_png(const std::string& path, const Image& image) {
+    if (Status good = check_image(image); !good) {
+        Error error = good.error();
+        error.file = path;
+        return error;
+    }
+    const auto width = static_cast<std::size_t>(image.width), height = static_cast<std::size_t>(image.height);
+    if (std::max(width, height) > io::longest_png_side)
+        return file_error(path, "the image is too long for a PNG file",
+                          "at most " + std::to_string(io::longest_png_side) + " pixels a side",
+                          by(image.width, image.height), "choose a smaller size");
+    const std::size_t row = image.offset(0, 1);
+    const auto copy_row = [&](std::size_t r, std::uint8_t* pixels) {
+        std::copy_n(image.data.data() + (height - 1 - r) * row, row, pixels);
+    };
+    return io::write_png_rows(path, width, height, copy_row, io::PngContent::shades);
+}
 
 Rgba texel(const Texture& texture, double u, double v) {
     const ExactEnvironment environment;

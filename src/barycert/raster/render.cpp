@@ -176,10 +176,9 @@ private:
             window_.push_back(viewport(scene_.size, row[0], row[1], row[3], scene_.rounding));
         }
         for (std::size_t i = 1; i + 1 < vertices; ++i) {
-            const std::size_t fan[3] = {0, i, i + 1};
             if (orient2d(window_[0].data(), window_[i].data(), window_[i + 1].data()) == Sign::zero) continue;
             area = true;
-            set_part(fan);
+            set_part({0, i, i + 1});
             draw_part();
         }
         ++(!area ? counts_.degenerate : counts_.covered == covered ? counts_.between_pixels : counts_.drawn);
@@ -212,19 +211,14 @@ private:
 
     /// What is linear in the window at each vertex: the depth, the scale if there is one, attributes times the scale.
     std::vector<double> linear_values() const {
-        std::array<double, 3> depth = part_.w;
-        if (scene_.interpolation == Interpolation::projected_z) {
-            for (std::size_t i = 0; i < 3; ++i) depth[i] = (part_.z[i] + 1) / 2;
-        }
-        const double least = *std::ranges::min_element(depth);
+        const bool affine = scene_.interpolation == Interpolation::affine;
+        const bool projected = scene_.interpolation == Interpolation::projected_z;
+        const double least = std::ranges::min(part_.w);
         std::vector<double> values;
         for (std::size_t i = 0; i < 3; ++i) {
+            const double scale = affine ? 1 : projected ? 1 / ((part_.z[i] + 1) / 2) : least / part_.w[i];
             values.push_back(part_.z[i]);
-            double scale = 1;
-            if (scene_.interpolation != Interpolation::affine) {
-                scale = (scene_.interpolation == Interpolation::projected_z ? 1 : least) / depth[i];
-                values.push_back(scale);
-            }
+            if (!affine) values.push_back(scale);
             for (std::size_t k = 0; k < n_; ++k) values.push_back(scale * part_.attributes[n_ * i + k]);
         }
         return values;
@@ -234,14 +228,13 @@ private:
     /// each.
     template <class Fill>
     void draw_rows(const SortedTriangle& sorted, Fill fill) {
-        const std::size_t n = n_;
         std::vector<double> row;
         for_spans(sorted, image_.width, [&](std::int32_t j, std::int32_t first, std::int32_t last) {
             fill(j, first, last, row);
             counts_.covered += static_cast<std::uint64_t>(last - first);
             const std::size_t begin = image_.offset(first, j) / 4;
             for (std::size_t i = 0; i < static_cast<std::size_t>(last - first); ++i) {
-                const double* const pixel = row.data() + (1 + n) * i;
+                const double* const pixel = row.data() + (1 + n_) * i;
                 double& depth = depth_[begin + i];
                 if (!(pixel[0] < depth)) {
                     ++counts_.hidden;
@@ -250,7 +243,7 @@ private:
                 depth = pixel[0];
                 const Rgba colour = colour_of(scene_, pixel + 1);
                 std::copy_n(colour.data(), 4, image_.data.data() + 4 * (begin + i));
-                if (attributes_ != nullptr) std::copy_n(pixel + 1, n, attributes_->data.data() + n * (begin + i));
+                if (attributes_ != nullptr) std::copy_n(pixel + 1, n_, attributes_->data.data() + n_ * (begin + i));
             }
         });
     }

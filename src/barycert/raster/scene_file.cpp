@@ -86,20 +86,15 @@ public:
         return all;
     }
 
-    /// One of a few words.
-    template <class T>
-    T choice(const std::map<std::string, T>& words) const {
-        if (value_.is_string()) {
-            const auto word = words.find(value_.get<std::string>());
-            if (word != words.end()) return word->second;
-        }
-        fail("one of " + base::joined(words, ", ", [](const auto& word) { return '"' + word.first + '"'; }));
-    }
-
-    /// The same of a member, into `to`, if there is that member.
+    /// One of a few words, into `to`, if there is that member.
     template <class T>
     void choose(const char* name, const std::map<std::string, T>& words, T& to) const {
-        if (has(name)) to = member(name).choice(words);
+        if (!has(name)) return;
+        const Json& chosen = value_.at(name);
+        const auto word = chosen.is_string() ? words.find(chosen.get<std::string>()) : words.end();
+        if (word == words.end())
+            member(name).fail("one of " + base::joined(words, ", ", [](const auto& w) { return '"' + w.first + '"'; }));
+        to = word->second;
     }
 
     [[noreturn]] void fail(const std::string& expected) const { refuse(place(), expected, brief(value_)); }
@@ -214,7 +209,8 @@ Image picture(const SceneValue& value, const std::filesystem::path& folder) {
         const SceneValue image = value.member("image");
         return checked(image, read_png((folder / image.text()).string()));
     }
-    const bool squares = value.member("pattern").choice<bool>({{"four-colours", false}, {"checkerboard", true}});
+    bool squares = false;
+    value.choose("pattern", {{"four-colours", false}, {"checkerboard", true}}, squares);
     if (!squares) {
         value.allow_only({"pattern", "wrap", "filter"});
         return four_colours();

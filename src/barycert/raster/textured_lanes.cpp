@@ -19,8 +19,7 @@
 #include "barycert/raster/triangle_lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace barycert::raster {
-namespace HWY_NAMESPACE {
+namespace barycert::raster::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 using Floats = hn::ScalableTag<float>;
@@ -274,8 +273,7 @@ std::size_t draw(const TexturedWork& work, std::span<const std::uint32_t> triang
     return work.perspective ? draw_wrapped<true>(work, sheet, triangles) : draw_wrapped<false>(work, sheet, triangles);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace barycert::raster
+}  // namespace barycert::raster::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

@@ -14,15 +14,15 @@ public:
     BlockVerifier(const Sampler& sampler, const Verifier& verifier, const ClaimedRows& claimed)
         : sampler_(sampler), options_(verifier.options()), ranges_(verifier.ranges()), claimed_(claimed) {}
 
-    Result<Verdicts> run() {
+    /// There is no Error: sizes fit, and points are finite or need not be.
+    Verdicts run() {
         const std::size_t rows = claimed_.points.size() / d_;
         found_.rows = rows;
         found_.columns.resize(ranges_.size());
         const SampleOptions exact{.threads = 1, .nonfinite_points = options_.nonfinite_points};
-        if (Status done = sampler_.sample(claimed_.points, exact, table_, claimed_.first_row); !done)
-            return done.error();
+        sampler_.sample(claimed_.points, exact, table_).value();
         for (std::size_t row = 0; row < rows; ++row) look_at(row);
-        if (Status done = look_again(); !done) return done.error();
+        look_again();
         Verdicts none;
         none.add(found_, options_.examples);  // orders examples
         return none;
@@ -135,33 +135,31 @@ private:
     }
 
     /// Every cell that contains the point may be the one that a tool took: that whose largest error is least counts.
-    Status look_again() {
-        if (again_.empty()) return Done{};
+    void look_again() {
+        if (again_.empty()) return;
         std::vector<double> points;
         points.reserve(d_ * again_.size());
         for (const std::size_t row : again_) points.insert(points.end(), point(row), point(row) + d_);
-        Result<Table> all = sampler_.locator().locate_all(points, 1);
-        if (!all) return all.error();
-        const std::vector<std::size_t> begin = all->point_begin;
-        points = all->points;
-        if (Status done = sampler_.evaluate(points, {.threads = 1}, *all); !done) return done.error();
+        Table all = sampler_.locator().locate_all(points, 1).value();
+        const std::vector<std::size_t> begin = all.point_begin;
+        points = all.points;
+        sampler_.evaluate(points, {.threads = 1}, all).value();
         for (std::size_t i = 0; i < again_.size(); ++i) {
             double least = std::numeric_limits<double>::infinity();
             std::size_t choice = begin[i];  // the owner, unless another one is nearer
             for (std::size_t row = begin[i]; row < begin[i + 1]; ++row) {
                 double most = 0;
                 for (std::size_t c = 0; c < columns(); ++c)
-                    most = std::max(most, compare(claims(again_[i])[c], all->value(row, c), ranges_[c]).relative);
+                    most = std::max(most, compare(claims(again_[i])[c], all.value(row, c), ranges_[c]).relative);
                 if (!(most < least)) continue;
                 least = most;
                 choice = row;
             }
             const std::uint64_t right = found_.right, cells = begin[i + 1] - begin[i];
             found_.several += cells > 1 ? 1 : 0;
-            settle(again_[i], all->values.data() + columns() * choice, cells);
+            settle(again_[i], all.values.data() + columns() * choice, cells);
             found_.by_other_cell += choice != begin[i] && found_.right != right ? 1 : 0;
         }
-        return Done{};
     }
 
     WrongRow wrong_row(std::size_t row, RowVerdict verdict, double severity) const {
@@ -229,21 +227,18 @@ Result<Verdicts> Verifier::verify(const ClaimedRows& rows) const {
     const std::size_t count = rows.points.size() / d, columns = sampler_.columns().size();
     constexpr std::size_t block = std::size_t{1} << 17;
     const std::size_t blocks = (count + block - 1) / block;
-    std::vector<std::optional<Result<Verdicts>>> parts(blocks);
+    std::vector<Verdicts> parts(blocks);
     base::in_arena(options_.threads, count, [&] {
         base::parallel_for(blocks, [&](std::size_t b) {
             const ExactEnvironment of_task;
             const std::size_t first = b * block;
             const ClaimedRows part = verify::part_of(rows, d, columns, first, std::min(block, count - first));
-            parts[b].emplace(verify::BlockVerifier(sampler_, *this, part).run());
+            parts[b] = verify::BlockVerifier(sampler_, *this, part).run();
         });
     });
     Verdicts all;
     all.columns.resize(columns);
-    for (auto& part : parts) {
-        if (!*part) return part->error();
-        all.add(**part, options_.examples);
-    }
+    for (const Verdicts& part : parts) all.add(part, options_.examples);
     return all;
 }
 

@@ -67,7 +67,6 @@ Verifier::Verifier(const Sampler& sampler, const VerifyOptions& options) : sampl
 Status Verifier::measure(Verdicts& verdicts) const {
     const ExactEnvironment environment;
     std::vector<WrongRow>& rows = verdicts.invented_rows;
-    std::vector<std::optional<Error>> errors(rows.size());
     base::in_arena(options_.threads, 1024 * rows.size(), [&] {
         base::parallel_for(rows.size(), [&](std::size_t i) {
             const ExactEnvironment of_task;
@@ -78,16 +77,11 @@ Status Verifier::measure(Verdicts& verdicts) const {
                 rows[i].distance = std::numeric_limits<double>::quiet_NaN();
                 return;
             }
-            const auto nearest = sampler_.locator().nearest(rows[i].point.data(), anywhere);
-            if (!nearest) {
-                errors[i] = nearest.error();
-            } else {
-                rows[i].severity = rows[i].distance = nearest->distance;
-            }
+            // The point is finite: there is no Error.
+            const Nearest nearest = sampler_.locator().nearest(rows[i].point.data(), anywhere).value();
+            rows[i].severity = rows[i].distance = nearest.distance;
         });
     });
-    for (const std::optional<Error>& error : errors)
-        if (error) return *error;
     for (const WrongRow& row : rows) {
         verdicts.invented_measured += std::isnan(row.distance) ? 0 : 1;
         verdicts.invented_near += row.distance <= near_ ? 1 : 0;

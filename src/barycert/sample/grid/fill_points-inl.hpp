@@ -1,5 +1,4 @@
-// Internal: cells, a vector of them at a time, fill in the points that they hold: those with few points in their boxes
-// one by one, others rows of them.
+// Internal: cells, a vector of them at a time, fill in the points that they hold.
 //
 // Included once per SIMD target.
 #if defined(BARYCERT_SAMPLE_FILL_POINTS_INL_HPP) == defined(HWY_TARGET_TOGGLE)

@@ -3,7 +3,8 @@
 #include "barycert/environment.hpp"
 #include "barycert/sample/grid/slab_sampler.hpp"
 
-namespace barycert::sample {
+namespace barycert {
+namespace sample {
 namespace {
 
 /// Slabs of a cell, the last one included; none: first > last.
@@ -163,9 +164,7 @@ SlabCells::SlabCells(const locate::CellIndex& index, const Raster& raster, std::
     });
 }
 
-}  // namespace barycert::sample
-
-namespace barycert {
+}  // namespace sample
 
 Result<SampleCounts> resample(const Sampler& sampler, const Grid& grid, const SampleOptions& options,
                               const GridSink& sink) {

@@ -78,18 +78,9 @@ void quadratic_projected(const SamplerData& data, Rounding rounding, std::size_t
     const MeshQueries query{data.index().simplex, std::span(reference.vertices).first(d * corners),
                             std::span(local).first(corners), std::span(&only, 1), std::span(reference.at).first(d)};
     const NodalValues<double> nodal{values, static_cast<int>(data.point_components)};
-    static_cast<void>(interpolate_quadratic(query, std::span(local).subspan(corners, mids), nodal,
-                                            std::span(out, data.point_components), &tiers, rounding)
-                          .has_value());
-}
-
-/// Of a point whose projection is no vertex; values(i) is that at node i of the feature.
-template <class Values>
-Value projected(const locate::NearFeature& feature, const std::array<double, 3>& point, Values values) {
-    std::array<double, 3> f{};
-    for (std::size_t i = 0; i < static_cast<std::size_t>(feature.count); ++i) f[i] = values(i);
-    // Coordinates are finite: there is no Error.
-    return *interpolate(feature.simplex(), feature.vertices().data(), point.data(), f.data());
+    interpolate_quadratic(query, std::span(local).subspan(corners, mids), nodal, std::span(out, data.point_components),
+                          &tiers, rounding)
+        .value();
 }
 
 /// Under the policy nearest: sets one value a column. Point fields get, correctly rounded or plain as asked for, the
@@ -109,8 +100,11 @@ void snapped_values(const SamplerData& data, Rounding rounding, const Nearest& n
         quadratic_projected(data, rounding, cell, feature, locate::weights_of(point, feature), values, used);
     } else {
         for (std::size_t c = 0; c < data.point_components; ++c) {
-            const auto nodal = [&](std::size_t i) { return nodal_value(data, feature.nodes[i], c); };
-            const Value v = projected(feature, point, nodal);
+            std::array<double, 3> f{};
+            for (std::size_t i = 0; i < static_cast<std::size_t>(feature.count); ++i)
+                f[i] = nodal_value(data, feature.nodes[i], c);
+            // Coordinates are finite: there is no Error.
+            const Value v = *interpolate(feature.simplex(), feature.vertices().data(), point.data(), f.data());
             values[c] = v.value;
             used.add(v.tier);
         }
@@ -120,12 +114,8 @@ void snapped_values(const SamplerData& data, Rounding rounding, const Nearest& n
         tiers.not_finite +=
             std::any_of(values, values + data.point_components, [](double x) { return std::isnan(x); }) ? 1 : 0;
     }
-    // The projection, each coordinate correctly rounded.
-    std::array<double, 3> at = point;
     const bool asked = data.quadratic && !data.at_points.empty();
-    for (std::size_t k = 0; asked && k < static_cast<std::size_t>(mesh.dimension); ++k)
-        at[k] = vertex ? feature.at[0][k]
-                       : projected(feature, point, [&](std::size_t i) { return feature.at[i][k]; }).value;
+    const std::array<double, 3> at = asked ? locate::projection_on(point, feature) : point;
     set_rest_of_row(data, rounding, nearest.cell, at.data(), values);
 }
 
@@ -317,9 +307,7 @@ void ChunkSampler::interpolate_second_order(const locate::PointRecord* points, s
     const MeshQueries queries{index.simplex, mesh.points, mesh.cells, cells_, points_};
     const NodalValues<double> values{data_.values, static_cast<int>(data_.point_components)};
     // Sizes fit, coordinates are finite and the environment has been looked at: there is no Error.
-    static_cast<void>(
-        interpolate_quadratic(queries, mesh.mid_nodes, values, values_, &counts_.values, options_.rounding)
-            .has_value());
+    interpolate_quadratic(queries, mesh.mid_nodes, values, values_, &counts_.values, options_.rounding).value();
     for (std::size_t i = 0; i < count; ++i)
         std::copy_n(values_.begin() + static_cast<std::ptrdiff_t>(data_.point_components * i), data_.point_components,
                     row(points[inside_[i].point]));

@@ -13,19 +13,18 @@ namespace {
 class SortedRows {
 public:
     SortedRows(const SamplerData& data, const SampleOptions& options, std::size_t size)
-        : data_(data), rows_(data.rows.take()), columns_(data.columns.size()) {
-        // One more for all points left out.
-        sampler_.emplace(data, options, make_room(*rows_, size + 1, data.width, options.outside));
-    }
+        : data_(data),
+          rows_(data.rows.take()),
+          sampler_(data, options, make_room(*rows_, size + 1, data.width, options.outside)) {}  // one for all left out
 
     void operator()(const locate::PointRecord* points, std::size_t count, const locate::Place* owner,
                     const Feature* feature) {
-        (*sampler_)(points, count, owner, feature);
+        sampler_(points, count, owner, feature);
     }
 
     /// The rows, and what was counted. Once, in the end.
     SampleCounts write(const locate::SortedPoints& sorted, std::size_t first, Table& out) {
-        sampler_->flush();
+        sampler_.flush();
         const std::size_t last = sorted.size(), left_out = sorted.left_out();
         // Points left out one by one: by their distances, or in a cell that bulges out of its part.
         const bool alone = !out.distances.empty() || data_.located().mapped != nullptr;
@@ -33,7 +32,7 @@ public:
             rows_->cells[last] = -1;
             rows_->features[last] = Feature::outside;
             std::fill_n(values(last), data_.width, 0);
-            sampler_->leave_out(left_out, static_cast<std::uint32_t>(last));
+            sampler_.leave_out(left_out, static_cast<std::uint32_t>(last));
         }
         const auto ahead = [&](std::size_t place) {
             __builtin_prefetch(&rows_->cells[place]);
@@ -43,8 +42,8 @@ public:
         sorted.for_each_in_callers_order(ahead, [&](std::size_t i, std::size_t place) {
             if (place == last && alone) {  // the row of all points left out serves for one after the other
                 if (!out.distances.empty()) rows_->distances[last] = 0;
-                sampler_->push(sorted.record(i, last), -1, Feature::outside);
-                sampler_->flush();
+                sampler_.push(sorted.record(i, last), -1, Feature::outside);
+                sampler_.flush();
             }
             const double* const from = values(place) + data_.hidden;
             out.cells[first + i] = rows_->cells[place];
@@ -53,7 +52,7 @@ public:
             if (!out.distances.empty()) out.distances[first + i] = rows_->distances[place];
         });
         data_.rows.put(std::move(rows_));
-        return sampler_->counts();
+        return sampler_.counts();
     }
 
 private:
@@ -61,8 +60,8 @@ private:
 
     const SamplerData& data_;
     std::unique_ptr<FoundRows> rows_;
-    std::size_t columns_;
-    std::optional<ChunkSampler> sampler_;
+    std::size_t columns_ = data_.columns.size();
+    ChunkSampler sampler_;
 };
 
 std::size_t components_of(const Field* field) {
@@ -293,12 +292,11 @@ Status Sampler::evaluate(std::span<const double> points, const SampleOptions& op
     Status finite = locate::check_finite(points, data_->index().dimension(), first_point);
     if (!finite && options.nonfinite_points == NonfinitePoints::error) return finite;
     const std::size_t d = data_->index().dimension(), count = points.size() / d;
-    const std::span<const Mesh::Index> cells = out.cells;
-    const std::span<const Feature> features = out.features;
-    if (cells.size() != count || features.size() != count)
+    const std::vector<Mesh::Index>& cells = out.cells;
+    if (cells.size() != count || out.features.size() != count)
         return Error{.what = "size of the locations",
                      .expected = "one cell and one feature for each of " + std::to_string(count) + " points",
-                     .found = std::to_string(cells.size()) + " and " + std::to_string(features.size())};
+                     .found = std::to_string(cells.size()) + " and " + std::to_string(out.features.size())};
     if (Status good = locate::check_cells(cells, data_->index().cell_count()); !good) return good;
     for (std::size_t row = 0; !finite && row < count; ++row) {
         if (cells[row] >= 0 && !base::all_finite({&points[d * row], d}))
@@ -324,7 +322,7 @@ Status Sampler::evaluate(std::span<const double> points, const SampleOptions& op
                 __builtin_prefetch(&places[static_cast<std::size_t>(cells[row + ahead])]);
             const locate::Place owner = cells[row] < 0 ? -1 : places[static_cast<std::size_t>(cells[row])];
             if (owner >= 0) __builtin_prefetch(&index.cells[static_cast<std::size_t>(owner)]);
-            sampler.push(record, owner, features[row]);
+            sampler.push(record, owner, out.features[row]);
         }
         sampler.flush();
         counts = sampler.counts();
@@ -338,7 +336,7 @@ Status Sampler::evaluate(std::span<const double> points, const SampleOptions& op
     if (Status status = sample::apply_policies(points, finite.has_value(), options, first_point, out); !status)
         return status;
     out.counts.add(counts);
-    for (const Feature feature : features) out.counts.locations.add(feature);
+    for (const Feature feature : out.features) out.counts.locations.add(feature);
     return Done{};
 }
 
