@@ -36,12 +36,13 @@ enum Incident : std::uint8_t {
 
 /// What to hand to a kernel: weights that are not an answer.
 inline constexpr double unset = std::numeric_limits<double>::quiet_NaN();
+inline constexpr std::array<double, 4> unset_weights{unset, unset, unset, unset};
 
 /// What a kernel answers to one case.
 struct Answer {
     int status = 0;  ///< 1: declared degenerate
     int region = 0;  ///< of the kernel's own classification
-    std::array<double, 4> weights{unset, unset, unset, unset};
+    std::array<double, 4> weights = unset_weights;
     double value = unset;        ///< of the interpolated field
     std::uint8_t incidents = 0;  ///< Incident
 };
