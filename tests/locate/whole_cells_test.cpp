@@ -117,7 +117,7 @@ private:
         }
         judges.push_back(judge);
         if (mesh.shapes.face_ends.empty() && polyhedron) mesh.shapes.face_ends.resize(mesh.shapes.count());
-        add_shape(mesh, polyhedron ? mesh::vtk_polyhedron : type, nodes,
+        add_shape(mesh, polyhedron ? std::uint8_t{mesh::vtk_polyhedron} : type, nodes,
                   polyhedron ? rings : std::vector<std::vector<Index>>());
     }
 
