@@ -69,6 +69,28 @@ TEST_F(Packed, SeveralMembersAreOneFile) {
     EXPECT_EQ(rows("m", "--points q.csv.gz"), expected_);
 }
 
+TEST_F(Packed, StandardInput) {
+    shell("gzip -k p.csv; head -c 40 p.csv.gz > cut.gz");
+    EXPECT_EQ(rows("m", "--points - < p.csv.gz"), expected_);
+    const Ended cut = shell("barycert sample m --points - --output - < cut.gz"),
+                stream = shell("cat p.csv.gz | barycert sample m --points - --output -");
+    EXPECT_EQ(cut.code, 2);
+    EXPECT_NE(cut.err.find("cannot be unpacked"), std::string::npos) << cut.err;
+    EXPECT_EQ(stream.code, 2);
+    EXPECT_NE(stream.err.find("gunzip"), std::string::npos) << stream.err;
+}
+
+/// The nodes of a PLC in a file of their own, packed or not.
+TEST_F(Packed, PlcAndItsNodes) {
+    shell(
+        "printf '4 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n' > q.node; "
+        "printf '0 3 0 0\n4 0\n1\n3 0 2 1\n1\n3 0 1 3\n1\n3 1 2 3\n1\n3 2 0 3\n0\n0\n' > q.poly; gzip -k q.poly");
+    for (const char* packs : {"rm q.poly", "gzip q.node"}) {
+        const Ended mesh = shell(std::string(packs) + "; barycert mesh q.poly.gz --output q1 && barycert check q1");
+        EXPECT_EQ(mesh.code, 0) << mesh.err;
+    }
+}
+
 TEST_F(Packed, Surfaces) {
     shell("printf 'OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n' | gzip > s.off.gz");
     const Ended mesh = shell("barycert mesh s.off.gz --output s && barycert check s");

@@ -37,6 +37,8 @@ void LineReader::skip_mark() {
     if (head.starts_with("\x93NU"))
         refuse_file(name_, "this is an NPY file", "text: a point a line", {},
                     "name a file that ends in .npy: a stream or a file of another name is read as CSV");
+    if (head.starts_with("\x1f\x8b"))
+        refuse_file(name_, "a stream that is packed by gzip", "text: a point a line", {}, "unpack it: gunzip | ...");
     if (const OtherFormat* packed = packed_format(head); packed != nullptr)
         throw Exception(other_format_error(*packed, name_));
     // A smaller part of the file, as a pipe gives, is decided line by line.

@@ -205,15 +205,14 @@ void tell_whole_mesh(Document& d, const CheckReport& r) {
             text += "; cells " +
                     joined(m.examples, ", ", [&](Mesh::Index cell) { return std::to_string(r.cell_number(cell)); }) +
                     (m.changing + m.unknown > m.examples.size() ? ", ..." : "");
+        d.name("maps", text, m.examples.empty() ? Tone::plain : Tone::strong);
+        text = fmt::format("{} at curved cells, ", m.curved_facets);
+        if (m.split_facets == 0) text += "the same in both cells";
         if (m.split_facets != 0)
-            text += fmt::format("; {} of {} at curved cells NOT the same in both cells, up to {:.2g} apart",
-                                m.split_facets, counted(m.curved_facets, "facet"), m.max_gap);
-        else if (m.curved_facets != 0)
-            text += fmt::format("; {} at curved cells, the same in both cells", counted(m.curved_facets, "facet"));
+            text += fmt::format("NOT the same in both cells {}, up to {:.2g} apart", m.split_facets, m.max_gap);
         if (!m.split.empty())
-            text += fmt::format(", the first between cells {} and {}", r.cell_number(m.split[0][0]),
-                                r.cell_number(m.split[0][1]));
-        d.name("maps", text, m.examples.empty() && m.split_facets == 0 ? Tone::plain : Tone::strong);
+            text += fmt::format(", first cells {} and {}", r.cell_number(m.split[0][0]), r.cell_number(m.split[0][1]));
+        if (m.curved_facets != 0) d.name("facets", text, m.split_facets == 0 ? Tone::plain : Tone::strong);
     }
     if (r.delaunay) d.add(Named{"Delaunay", delaunay_sentences(r)});
     if (r.conformity) d.add(Named{"PLC", conformity_sentences(r, 40)}, For::terminal);
