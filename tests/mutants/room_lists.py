@@ -29,7 +29,7 @@ CHECK = [
     ("pairs.cpp", "if (!complete) c.defects[DefectKind::nested_part].at_least = true;", "", "not said that there may be more"),
 ]
 LOCATE = [
-    ("contested_cells.cpp", "if (original(i) < original(j)) std::swap(i, j);", "if (i < j) std::swap(i, j);", "lower by place, not by number"),
+    ("contested_cells.cpp", "if (index_.original[cells_[i]] < index_.original[cells_[j]]) std::swap(i, j);", "if (i < j) std::swap(i, j);", "lower by place, not by number"),
     ("contested_cells.cpp", "cells_.size() + 7) / 8", "cells_.size()) / 8", "the last group of cells"),
     ("near_bounds.hpp", "if (size_x > 0) error += size_x * size_y * roundings + min;", "", "no bound of the error"),
     ("near_bounds.hpp", "slack += off * (2 * place.reach[k] + off) + min;", "", "the rounding of a projection"),
