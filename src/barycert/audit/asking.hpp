@@ -54,8 +54,9 @@ Comparison compare(const Kernel& kernel, const Case& c, const OracleAnswer& answ
 double predicting_condition(const Case& c, Region region);
 
 /// What leaves no error to measure. (A kernel that touched memory beside its arrays may have died of it.)
-inline constexpr std::array mute_findings{Finding::not_finite, Finding::false_declaration, Finding::crashed,
-                                          Finding::raised,     Finding::hung,              Finding::out_of_bounds};
+inline constexpr std::array mute_findings{Finding::not_finite, Finding::false_declaration,
+                                          Finding::crashed,    Finding::raised,
+                                          Finding::hung,       Finding::out_of_bounds};
 
 /// A figure of a kernel: of many answers.
 struct Figure {
