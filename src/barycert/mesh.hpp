@@ -72,7 +72,7 @@ struct Mesh {
         std::vector<std::int64_t> face_ends;  ///< where the faces of each end, if some are polyhedra; else empty
         std::vector<std::int64_t> ring_ends;  ///< where the nodes of each face of polyhedra end
         std::vector<Index> rings;             ///< these nodes
-        std::vector<Index> parts;             ///< the first cell of each, and the number of all
+        std::vector<Index> parts;             ///< the first cell of each, which has one or more, and the number of all
         std::vector<std::uint16_t> inside;    ///< of each cell, what of its boundary lies inside (mesh/pulling.hpp)
 
         std::size_t count() const { return types.size(); }

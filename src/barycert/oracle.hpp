@@ -18,6 +18,8 @@
 /// degenerate.
 #pragma once
 
+#include <limits>
+
 #include "barycert/simplex.hpp"
 
 namespace barycert {
@@ -31,6 +33,13 @@ struct OracleAnswer {
     double value = 0;                    ///< sum of weight times nodal value, correctly rounded; NaN if degenerate
     bool narrow = false;                 ///< machine words were wide enough (for counting; never changes an answer)
 };
+
+/// Of every degenerate case.
+inline OracleAnswer degenerate_answer() {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    return {
+        .region = Region::degenerate, .feature = Feature::degenerate, .weights = {nan, nan, nan, nan}, .value = nan};
+}
 
 /// Precondition: all numbers of the case are finite, and its depths are above zero.
 OracleAnswer ask_oracle(const Case& c);

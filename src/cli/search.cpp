@@ -22,6 +22,26 @@ extern "C" void note_interrupt(int) {
     interrupted = 1;
 }
 
+/// While it lives Ctrl-C ends the search and not the program; a second one ends both.
+class InterruptEndsSearch {
+public:
+    InterruptEndsSearch() {
+        interrupted = 0;
+        ::sigaction(SIGINT, nullptr, &before_);
+        if (before_.sa_handler == SIG_IGN) return;
+        struct sigaction noting {};
+        noting.sa_handler = note_interrupt;
+        noting.sa_flags = static_cast<int>(SA_RESTART | SA_RESETHAND);
+        ::sigaction(SIGINT, &noting, nullptr);
+    }
+    ~InterruptEndsSearch() { ::sigaction(SIGINT, &before_, nullptr); }
+    InterruptEndsSearch(const InterruptEndsSearch&) = delete;
+    InterruptEndsSearch& operator=(const InterruptEndsSearch&) = delete;
+
+private:
+    struct sigaction before_ {};
+};
+
 std::string progress_line(const SearchProgress& p, double seconds) {
     std::string line = fmt::format("{:3d} %  {} of {} cases, {:.0f} s", p.steps_done * 100 / p.steps_total,
                                    p.steps_done, p.steps_total, seconds);
@@ -38,16 +58,8 @@ Result<SearchReport> search(SearchArguments& a) {
         if (progress.due()) progress.stage(progress_line(p, elapsed.count()));
         return interrupted == 0;
     };
-    // Ctrl-C ends the search and not the program; a second one ends both.
-    struct sigaction before {
-    }, noting{};
-    noting.sa_handler = note_interrupt;
-    noting.sa_flags = static_cast<int>(SA_RESTART | SA_RESETHAND);
-    ::sigaction(SIGINT, nullptr, &before);
-    if (before.sa_handler != SIG_IGN) ::sigaction(SIGINT, &noting, nullptr);
-    Result<SearchReport> found = search_worst_case(a.job);
-    ::sigaction(SIGINT, &before, nullptr);
-    return found;
+    const InterruptEndsSearch while_searching;
+    return search_worst_case(a.job);
 }
 
 int run_search(SearchArguments& a) {

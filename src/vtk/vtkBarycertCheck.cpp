@@ -37,6 +37,7 @@ template <class Array, class All, class Of = std::identity>
 void add_array(vtkFieldData& to, std::string_view name, const All& all, const Of& of = {}) {
     vtkNew<Array> array;
     array->SetName(std::string(name).c_str());
+    array->Allocate(static_cast<vtkIdType>(std::size(all)));
     for (const auto& one : all) array->InsertNextValue(of(one));
     to.AddArray(array);
 }

@@ -78,6 +78,26 @@ TEST_F(Packed, StandardInput) {
     EXPECT_NE(cut.err.find("cannot be unpacked"), std::string::npos) << cut.err;
     EXPECT_EQ(stream.code, 2);
     EXPECT_NE(stream.err.find("gunzip"), std::string::npos) << stream.err;
+    shell("gzip -k p.csv.gz 2> gzip.log || gzip < p.csv.gz > p.csv.gz.gz; printf '\\3757zXZ\\000' > p.xz");
+    for (const char* packed : {"p.csv.gz.gz", "p.xz"}) {
+        const Ended refused = shell(std::string("barycert sample m --points - --output - < ") + packed);
+        EXPECT_EQ(refused.code, 2) << packed;
+        EXPECT_TRUE(contains(refused.err, "unpack it first: gunzip, xz -dc")) << refused.err;
+    }
+}
+
+/// A solution is told whether the mesh beside it is packed or not.
+TEST_F(Packed, TheFileBesideTheMesh) {
+    scratch_.put("t.mesh",
+                 "MeshVersionFormatted 2\nDimension 3\nVertices\n4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n"
+                 "Tetrahedra\n1\n1 2 3 4 0\nEnd\n");
+    scratch_.put("t.sol", "MeshVersionFormatted 2\nDimension 3\nSolAtVertices\n4\n1 1\n1\n2\n3\n4\nEnd\n");
+    shell("gzip -k t.mesh");
+    for (const char* mesh : {"t.mesh", "t.mesh.gz"}) {
+        const Ended check = shell(std::string("barycert check ") + mesh);
+        EXPECT_EQ(check.code, 0) << check.err;
+        EXPECT_TRUE(contains(check.out + check.err, "t.sol, unless it is named")) << check.out << check.err;
+    }
 }
 
 /// The nodes of a PLC in a file of their own, packed or not.

@@ -1,6 +1,7 @@
 #include <map>
 #include <set>
 
+#include "barycert/mesh/consistency.hpp"
 #include "mesh/shaped_mesh.hpp"
 
 namespace barycert::test {
@@ -309,6 +310,39 @@ TEST(Pulling, PolyhedraWhoseFacesAreTurnedAnyWayAreFilled) {
             cut(plain);
             EXPECT_EQ(filled(mesh), filled(plain));
         }
+    }
+}
+
+// Two tetrahedra at one node, whose bases are one ring that has it twice.
+TEST(Pulling, ARingMayPassANodeTwice) {
+    Mesh mesh;
+    mesh.points = {0, 0, 0, 6, 0, 0, 0, 6, 0, -6, 0, 0, 0, -6, 0, 0, 0, 6, 0, 0, -6};
+    add_shape(mesh, mesh::vtk_polyhedron, {0, 1, 2, 3, 4, 5, 6},
+              {{0, 1, 2, 0, 3, 4}, {0, 1, 5}, {1, 2, 5}, {2, 0, 5}, {0, 3, 6}, {3, 4, 6}, {4, 0, 6}});
+    cut(mesh);
+    ASSERT_EQ(mesh.cell_count(), 2U);
+    EXPECT_EQ(std::abs(measure(mesh, 0)), 216);
+    EXPECT_EQ(std::abs(measure(mesh, 1)), 216);
+}
+
+TEST(Pulling, PartsThatAreNotThoseOfTheCellsAreTold) {
+    Mesh mesh = one_cell(12, first_numbers(8));
+    cut(mesh);
+    ASSERT_EQ(mesh::inconsistency(mesh), nullptr);
+    const auto n = static_cast<Index>(mesh.cell_count());
+    const std::vector<std::vector<Index>> wrong{{}, {0}, {n}, {0, n - 1}, {1, n}, {0, n + 1}, {0, 0, n}, {0, n, n}};
+    for (const std::vector<Index>& parts : wrong) {
+        Mesh other = mesh;
+        other.shapes.parts = parts;
+        EXPECT_STREQ(mesh::inconsistency(other), "its cells are not the parts of its shapes");
+        other.shapes = {};
+        other.shapes.parts = parts;
+        EXPECT_EQ(mesh::inconsistency(other) == nullptr, parts.size() < 2);
+    }
+    add_shape(mesh, 10, {0, 1, 3, 4});
+    for (const Index from : {Index{0}, n}) {
+        mesh.shapes.parts = {0, from, n};
+        EXPECT_STREQ(mesh::inconsistency(mesh), "its cells are not the parts of its shapes") << "none of cell " << from;
     }
 }
 

@@ -182,7 +182,7 @@ TEST(View, ScaleDoesNotMatter) {
 
 TEST(View, AFlatCellIsSeenFlatFromTheSide) {
     const std::vector<Vector> flat{{-1, -1, 0}, {1, -1, 1e-6}, {1, 1, 0}, {-1, 1, 1e-6}};
-    const report::View side = report::broad_view(flat, false), above = report::broad_view(flat, true);
+    const report::View side = report::from_the_side(flat), above = report::from_above(flat);
     for (const Vector& p : flat) EXPECT_LT(std::fabs(side(p)[1]), 1e-5);
     EXPECT_GT(std::fabs(above.z[2]), 0.999);
     const auto edge = report::sharpest_edge(flat);

@@ -234,13 +234,13 @@ RC_GTEST_PROP(Coordinates, PlacesAreOrderedAndRoundTrip, ()) {
     const double x = std::bit_cast<double>(bits);
     RC_PRE(std::isfinite(x));
     const auto n = *rc::gen::inRange<std::int64_t>(-5000, 5000);
-    const double y = places_above(x, n);
+    const double y = base::places_above(x, n);
     RC_ASSERT((n > 0) == (y > x));
     RC_ASSERT((n < 0) == (y < x));
     if (std::isfinite(y)) {
-        RC_ASSERT(places_above(y, -n) == x);
+        RC_ASSERT(base::places_above(y, -n) == x);
     }
-    RC_ASSERT(places_above(x, 1) == std::nextafter(x, HUGE_VAL));
+    RC_ASSERT(base::places_above(x, 1) == std::nextafter(x, HUGE_VAL));
 }
 
 TEST(Coordinates, SignificantBits) {

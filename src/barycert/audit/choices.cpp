@@ -69,7 +69,8 @@ std::optional<double> figure(const SearchReport& report, const std::string& name
     bool mute = report.given_up;
     for (const SearchFind& f : report.finds) {
         if (f.reason == name) return finding ? static_cast<double>(f.cases) : f.found.magnitude;
-        mute = mute || std::ranges::any_of(audit::mute_findings, [&](Finding of) { return f.reason == barycert::name(of); });
+        mute = mute ||
+               std::ranges::any_of(audit::mute_findings, [&](Finding of) { return f.reason == barycert::name(of); });
     }
     // A kernel that gave no weights where there are some has no error to measure: it is worse than any.
     return finding || !mute ? 0 : std::numeric_limits<double>::infinity();

@@ -10,13 +10,13 @@ bool serves(const PreparedMesh& m, Simplex s) {
     return m.mesh.dimension == space_dimension(s);
 }
 
-/// A mesh that serves; each has the same chance, however large: small ones are the nasty ones. The first if none does.
+/// A mesh that serves; each has the same chance, however large: small ones are the nasty ones. Precondition:
+/// source.supplies(s).
 const PreparedMesh& pick(const MeshSource& source, Simplex s, base::Random& random) {
     const auto& meshes = source.meshes();
     const auto count = std::ranges::count_if(meshes, [s](const auto& m) { return serves(*m, s); });
     auto skip = random.below(static_cast<std::uint64_t>(count));
-    const auto found = std::ranges::find_if(meshes, [&](const auto& m) { return serves(*m, s) && skip-- == 0; });
-    return found == meshes.end() ? *meshes.front() : **found;
+    return **std::ranges::find_if(meshes, [&](const auto& m) { return serves(*m, s) && skip-- == 0; });
 }
 
 std::array<Mesh::Index, 4> nodes_of(const Mesh& mesh, std::size_t cell) {

@@ -6,7 +6,9 @@ namespace barycert::audit {
 namespace {
 
 /// A recipe: a simplex from a mesh, then step after step.
-template <auto source, auto... steps>
+using Source = Draw (*)(const MeshSource& meshes, Simplex s, base::Random& random);
+using Step = void (*)(Draw& draw, base::Random& random);
+template <Source source, Step... steps>
 Draw drawn(base::Random& random, const MeshSource& meshes, Simplex s) {
     Draw draw = source(meshes, s, random);
     (steps(draw, random), ...);
@@ -27,11 +29,16 @@ void nudge(Draw& draw, base::Random& random) {
     move_by_ulp(c, c.point[axis], static_cast<int>(axis), random);
 }
 
-/// In the face of the first `count` vertices; of all but -count of them if it is not above 0.
-template <int count>
+/// In the face of the vertices but the last ones.
+template <int fewer>
 void point_in_face(Draw& draw, base::Random& random) {
-    const int n = count > 0 ? count : vertex_count(draw.simplex.simplex) + count;
-    draw.simplex.point = random_point(draw.simplex, random, n);
+    draw.simplex.point = random_point(draw.simplex, random, vertex_count(draw.simplex.simplex) - fewer);
+}
+
+/// On the edge of the first two vertices, or at the first one.
+template <int vertices>
+void point_on_first(Draw& draw, base::Random& random) {
+    draw.simplex.point = random_point(draw.simplex, random, vertices);
 }
 
 void point_at_centroid(Draw& draw, base::Random&) {
@@ -86,19 +93,19 @@ std::vector<Family> mesh_families() {
         {"mesh.centroids", "points whose exact weights are almost equal", "fl(fl(sum v_i) / n)", every, nullptr,
          drawn<draw_any, point_at_centroid>},
         {"mesh.faces", "points computed on a face: after rounding most are beside it",
-         "fl(sum w_i v_i) over three vertices", tetrahedron_only, nullptr, drawn<draw_any, shuffle, point_in_face<-1>>},
+         "fl(sum w_i v_i) over three vertices", tetrahedron_only, nullptr, drawn<draw_any, shuffle, point_in_face<1>>},
         {"mesh.edges", "points computed on an edge", "fl(w_0 v_0 + w_1 v_1)", sided, nullptr,
-         drawn<draw_any, shuffle, point_in_face<2>>},
+         drawn<draw_any, shuffle, point_on_first<2>>},
         {"mesh.vertices", "vertices: all weights but one are exactly zero", "the vertex itself", every, nullptr,
-         drawn<draw_any, shuffle, point_in_face<1>>},
+         drawn<draw_any, shuffle, point_on_first<1>>},
         {"mesh.faces.ulp", "points one ulp off a face", "mesh.faces, one coordinate moved by one ulp", tetrahedron_only,
-         nullptr, drawn<draw_any, shuffle, point_in_face<-1>, nudge>},
-        {"mesh.edges.ulp", "points one ulp off an edge", "mesh.edges, one coordinate moved by one ulp", sided, nullptr,
-         drawn<draw_any, shuffle, point_in_face<2>, nudge>},
-        {"mesh.vertices.ulp", "points one ulp off a vertex", "mesh.vertices, one coordinate moved by one ulp", every,
          nullptr, drawn<draw_any, shuffle, point_in_face<1>, nudge>},
+        {"mesh.edges.ulp", "points one ulp off an edge", "mesh.edges, one coordinate moved by one ulp", sided, nullptr,
+         drawn<draw_any, shuffle, point_on_first<2>, nudge>},
+        {"mesh.vertices.ulp", "points one ulp off a vertex", "mesh.vertices, one coordinate moved by one ulp", every,
+         nullptr, drawn<draw_any, shuffle, point_on_first<1>, nudge>},
         {"mesh.hull.near", "points just outside the mesh", "from the hull outwards by 2^-50 to 2^-4 of the height",
-         solid, nullptr, drawn<draw_at_hull, point_in_face<-1>, step_outwards>},
+         solid, nullptr, drawn<draw_at_hull, point_in_face<1>, step_outwards>},
         {"mesh.hull.far", "points far outside: large weights that cancel", "up to 2^20 bounding boxes away", solid,
          nullptr, drawn<draw_at_hull, point_far_away>},
         {"mesh.neighbours", "points of a neighbouring cell", "fl(sum w_i v_i) of a neighbouring cell", every, nullptr,

@@ -6,10 +6,10 @@
 namespace barycert::audit {
 
 GapPoints::GapPoints(const Mesh& mesh)
-    : mesh_(mesh), neighbours_(mesh::compute_neighbours(mesh)), around_(mesh.point_count()) {
-    for (std::size_t k = 0; k < mesh.cells.size(); ++k)
-        around_[static_cast<std::size_t>(mesh.cells[k])].push_back(static_cast<Mesh::Index>(k / mesh.corners()));
-}
+    : mesh_(mesh), neighbours_(mesh::compute_neighbours(mesh)), cells_(mesh.point_count(), [&](const auto& add) {
+          for (std::size_t k = 0; k < mesh.cells.size(); ++k)
+              add(static_cast<std::size_t>(mesh.cells[k]), static_cast<Mesh::Index>(k / mesh.corners()));
+      }) {}
 
 Case GapPoints::case_of(Mesh::Index cell, const std::array<double, 3>& point) const {
     Case c{.simplex = mesh_.dimension == 2 ? Simplex::triangle : Simplex::tetrahedron, .point = point};
@@ -56,7 +56,7 @@ GapPoint GapPoints::make(Feature feature, std::uint64_t seed, std::uint64_t inde
     }
     keep_finite(p.point);
     for (const Mesh::Index node : p.nodes) {
-        const std::vector<Mesh::Index>& cells = around_[static_cast<std::size_t>(node)];
+        const std::span<const Mesh::Index> cells = cells_[static_cast<std::size_t>(node)];
         p.cells.insert(p.cells.end(), cells.begin(), cells.end());
     }
     std::ranges::sort(p.cells);

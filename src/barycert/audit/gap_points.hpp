@@ -1,6 +1,7 @@
 /// Points on what cells share, and the cells around them.
 #pragma once
 
+#include "barycert/base/lists.hpp"
 #include "barycert/mesh.hpp"
 #include "barycert/simplex.hpp"
 
@@ -26,7 +27,7 @@ public:
 private:
     const Mesh& mesh_;
     std::vector<Mesh::Index> neighbours_;
-    std::vector<std::vector<Mesh::Index>> around_;  ///< the cells of each node, ascending
+    base::Lists<Mesh::Index> cells_;  ///< of each node
 };
 
 }  // namespace barycert::audit

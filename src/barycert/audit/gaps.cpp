@@ -156,8 +156,9 @@ Result<std::vector<Claimant>> claimants_of(const GapsOptions& options, Simplex s
                           "a kernel for a " + std::string(barycert::name(simplex)), "",
                           "`barycert kernels` lists them");
     if (!options.rules.empty() && wanted(ClaimRule::own) && !own)
-        return file_error({}, "no kernel has a rule of its own", "one that classifies points or has a tolerance", "",
-                          "leave out the rule own, or name such a kernel");
+        return Error{.what = "no kernel has a rule of its own",
+                     .expected = "one that classifies points or has a tolerance",
+                     .remedy = "leave out the rule own, or name such a kernel"};
     return all;
 }
 

@@ -101,20 +101,9 @@ inline void move_by_ulp(const Case& c, double& x, int axis, base::Random& random
     x = up ? ulp : -ulp;
 }
 
-/// The double `n` places above x in the order of doubles, in which zero is one place; infinite beyond the largest.
-/// Preconditions: x finite, |n| < 2^62.
-inline double places_above(double x, std::int64_t n) {
-    const auto bits = std::bit_cast<std::int64_t>(x);
-    const std::int64_t place = (bits >= 0 ? bits : std::numeric_limits<std::int64_t>::min() - bits) + n;
-    constexpr std::int64_t infinite = 0x7ff0000000000000;
-    if (place >= infinite) return HUGE_VAL;
-    if (place <= -infinite) return -HUGE_VAL;
-    return std::bit_cast<double>(place >= 0 ? place : std::numeric_limits<std::int64_t>::min() - place);
-}
-
 /// Up to two doubles up or down.
 inline double ulps_away(double x, base::Random& random) {
-    return places_above(x, random.integer(-2, 2));
+    return base::places_above(x, random.integer(-2, 2));
 }
 
 inline void random_values(Case& c, base::Random& random) {

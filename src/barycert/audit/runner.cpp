@@ -81,8 +81,9 @@ Result<AuditReport> run_audit(const AuditOptions& options, const MeshSource& mes
     if (const Status ok = check_environment(report.environment); !ok) return ok.error();
     const std::vector<Part> parts = plan(options, meshes);
     if (parts.empty())
-        return file_error({}, "nothing to audit: no family applies to a kernel", "", "",
-                          "see `barycert kernels` and `barycert families`; mesh families of triangles need a 2D mesh");
+        return Error{
+            .what = "nothing to audit: no family applies to a kernel",
+            .remedy = "see `barycert kernels` and `barycert families`; mesh families of triangles need a 2D mesh"};
     report.seed = options.seed;
     report.count = options.count;
     report.threads = base::threads_for(options.threads);

@@ -1,8 +1,8 @@
 /// Files that are read, opened without waiting, and told apart from folders, pipes and devices in one place.
 ///
 /// A file that is read at once or by places (meshes, NPY, maps, kernel libraries) is a regular file; one that is read
-/// whole and once (PLCs, witnesses) may be a pipe, as of <(...). Neither waits for the other end of a named pipe.
-/// Streams of points: io/csv/line_reader.hpp.
+/// whole and once (PLCs, witnesses) may be a pipe, as of <(...). Neither waits for the other end of a named pipe. What
+/// gzip packed is unpacked: unpack(). Streams of points: io/csv/line_reader.hpp.
 #pragma once
 
 #include <sys/types.h>

@@ -232,7 +232,11 @@ Status OutputFile::commit() {
         if (in_place || !error_.what.empty()) return status();
     }
     if (begun_ == nullptr) return Done{};
-    std::rename(begun_->path.c_str(), real_path_.c_str()) == 0 ? forget_name() : fail(put_in_place, errno);
+    if (std::rename(begun_->path.c_str(), real_path_.c_str()) != 0) {
+        fail(put_in_place, errno);
+    } else {
+        forget_name();
+    }
     return status();
 }
 

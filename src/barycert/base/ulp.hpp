@@ -8,6 +8,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 namespace barycert::base {
 
@@ -42,5 +43,16 @@ inline double ulp_error_here(double computed, double reference) {
 /// The next double above / below x. Preconditions: x finite.
 double next_up(double x);
 double next_down(double x);
+
+/// The double `n` places above x in the order of doubles, in which zero is one place; infinite beyond the largest.
+/// Preconditions: x finite, |n| < 2^62.
+inline double places_above(double x, std::int64_t n) {
+    const auto bits = std::bit_cast<std::int64_t>(x);
+    const std::int64_t place = (bits >= 0 ? bits : std::numeric_limits<std::int64_t>::min() - bits) + n;
+    constexpr std::int64_t infinite = 0x7ff0000000000000;
+    if (place >= infinite) return HUGE_VAL;
+    if (place <= -infinite) return -HUGE_VAL;
+    return std::bit_cast<double>(place >= 0 ? place : std::numeric_limits<std::int64_t>::min() - place);
+}
 
 }  // namespace barycert::base

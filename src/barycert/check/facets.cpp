@@ -1,7 +1,6 @@
 #include <tbb/parallel_sort.h>
 
-#include <numeric>
-
+#include "barycert/base/lists.hpp"
 #include "barycert/check/stages.hpp"
 #include "barycert/index/proof.hpp"
 #include "barycert/mesh/adjacency.hpp"
@@ -185,22 +184,16 @@ std::vector<std::uint8_t> faces_of_cells(const Mesh& mesh, const std::vector<std
         Triple nodes;
         std::size_t index;
     };
-    // Sorted, and where those of each lowest node begin.
-    std::vector<Face> faces;
-    std::vector<std::size_t> begin(mesh.point_count() + 1, 0);
-    for (std::size_t f = 0; f < mesh.face_count(); ++f) {
-        const Triple nodes = ascending(nodes_of_face(mesh, f));
-        if (!has_nodes(mesh, nodes)) continue;
-        ++begin[static_cast<std::size_t>(nodes[0]) + 1];
-        faces.push_back({nodes, f});
-    }
-    std::partial_sum(begin.begin(), begin.end(), begin.begin());
-    std::ranges::sort(faces, {}, &Face::nodes);
+    const base::Lists<Face> by_lowest_node(mesh.point_count(), [&](const auto& add) {
+        for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+            const Triple nodes = ascending(nodes_of_face(mesh, f));
+            if (has_nodes(mesh, nodes)) add(static_cast<std::size_t>(nodes[0]), {nodes, f});
+        }
+    });
     std::vector<std::uint8_t> found(mesh.face_count(), 0);
     const auto meet = [&](const Triple& sorted) {
-        const auto node = static_cast<std::size_t>(sorted[0]);
-        for (std::size_t i = begin[node]; i < begin[node + 1]; ++i) {
-            if (faces[i].nodes == sorted) std::atomic_ref(found[faces[i].index]).store(1, std::memory_order_relaxed);
+        for (const Face& face : by_lowest_node[static_cast<std::size_t>(sorted[0])]) {
+            if (face.nodes == sorted) std::atomic_ref(found[face.index]).store(1, std::memory_order_relaxed);
         }
     };
     base::parallel_for_each(mesh.cell_count(), 4096, [&](std::size_t cell) {

@@ -12,13 +12,13 @@ namespace {
 namespace iso = core::isoparametric;
 
 /// A cell of the mesh, and its map if that is one of a curved simplex.
-struct Curved {
+struct CurvedCell {
     std::span<const Mesh::Index> corners;
     const iso::Reference* reference = nullptr;
     mesh::CellMaps::Nodes nodes = {};
     iso::Places places = {};
 
-    Curved(const Mesh& mesh, const mesh::CellMaps& maps, std::size_t cell, Mesh::Index whole)
+    CurvedCell(const Mesh& mesh, const mesh::CellMaps& maps, std::size_t cell, Mesh::Index whole)
         : corners(nodes_of(mesh, cell)) {
         const auto w = static_cast<std::size_t>(whole);
         const iso::Reference* const of = maps.reference(w);
@@ -32,19 +32,19 @@ struct Curved {
     const double* place(std::size_t node) const { return places.other[node] != nullptr ? nullptr : places.at[node]; }
 
     /// The node with as much of the corners as one of a cell with the same reference, all of which this one has.
-    std::size_t node_like(const Curved& other, std::size_t node) const {
+    std::size_t node_like(const CurvedCell& other, std::size_t node) const {
         std::array<std::uint8_t, 4> index{};
-        for (std::size_t i = 0; i < corners.size(); ++i) {
-            const auto own = std::ranges::find(nodes.all().first(corners.size()), other.nodes.at[i]);
-            if (own != nodes.all().end())
-                index[static_cast<std::size_t>(own - nodes.all().begin())] = other.reference->indices[node][i];
+        const std::span<const Mesh::Index> own = nodes.all().first(corners.size());
+        for (std::size_t i = 0; i < own.size(); ++i) {
+            const auto at = std::ranges::find(own, other.nodes.at[i]);
+            if (at != own.end()) index[static_cast<std::size_t>(at - own.begin())] = other.reference->indices[node][i];
         }
         return static_cast<std::size_t>(std::ranges::find(reference->indices, index) - reference->indices.begin());
     }
 
     /// The largest distance between places of a node of the common facet in both cells. Beside a straight one, or one
     /// of another order, it should be where it is in a straight cell, up to rounding.
-    double gap(const Curved& beyond) const {
+    double gap(const CurvedCell& beyond) const {
         double most = 0;
         for (std::size_t node = corners.size(); node < reference->nodes; ++node) {
             const auto& index = reference->indices[node];
@@ -73,49 +73,40 @@ struct Curved {
 };
 
 /// Facets between a curved simplex and any other cell.
-struct FacetsCompared {
-    std::uint64_t facets = 0, split = 0;
-    double gap = 0;
-    std::vector<std::array<Mesh::Index, 2>> cells = {};
-
-    void add(double distance, std::array<Mesh::Index, 2> sides) {
-        ++facets;
-        if (distance == 0) return;
-        ++split;
-        gap = std::max(gap, distance);
-        cells.push_back(sides);
-    }
-};
-
 void compare_facets(const Checked& c, const mesh::CellMaps& maps, MapReport& report) {
     const Mesh& mesh = c.mesh;
     const std::vector<Mesh::Index> wholes = mesh::whole_of_parts(mesh);
     const auto curved = [&](Mesh::Index cell) {
         const auto i = static_cast<std::size_t>(cell);
-        return Curved(mesh, maps, i, wholes.empty() ? cell : wholes[i]);
+        return CurvedCell(mesh, maps, i, wholes.empty() ? cell : wholes[i]);
     };
     in_blocks(
-        mesh.cell_count(), 1024, FacetsCompared{},
-        [&](std::size_t first, std::size_t last, FacetsCompared& part) {
+        mesh.cell_count(), 1024, MapReport{},
+        [&](std::size_t first, std::size_t last, MapReport& part) {
             for (auto cell = static_cast<Mesh::Index>(first); cell < static_cast<Mesh::Index>(last); ++cell) {
-                const Curved own = curved(cell);
+                const CurvedCell own = curved(cell);
                 if (own.reference == nullptr) continue;
                 for (std::size_t i = 0; i < mesh.corners(); ++i) {
                     const Mesh::Index other = c.neighbours[mesh.corners() * static_cast<std::size_t>(cell) + i];
                     if (other < 0) continue;
-                    const Curved beyond = curved(other);
+                    const CurvedCell beyond = curved(other);
                     const bool both = beyond.reference != nullptr;
                     if (both && other < cell) continue;
-                    part.add(std::max(own.gap(beyond), both ? beyond.gap(own) : 0), {cell, other});
+                    ++part.curved_facets;
+                    const double gap = std::max(own.gap(beyond), both ? beyond.gap(own) : 0);
+                    if (gap == 0) continue;
+                    ++part.split_facets;
+                    part.max_gap = std::max(part.max_gap, gap);
+                    if (part.split.size() < c.options.examples) part.split.push_back({cell, other});
                 }
             }
         },
-        [&](const FacetsCompared& part) {
-            report.curved_facets += part.facets;
-            report.split_facets += part.split;
-            report.max_gap = std::max(report.max_gap, part.gap);
-            for (const auto& sides : part.cells)
-                if (report.split.size() < c.options.examples) report.split.push_back(sides);
+        [&](const MapReport& part) {
+            report.curved_facets += part.curved_facets;
+            report.split_facets += part.split_facets;
+            report.max_gap = std::max(report.max_gap, part.max_gap);
+            report.split.insert(report.split.end(), part.split.begin(), part.split.end());
+            report.split.resize(std::min(report.split.size(), c.options.examples));
         });
 }
 

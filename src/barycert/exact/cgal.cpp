@@ -198,8 +198,7 @@ std::optional<Found> found(const Case& c) {
 OracleAnswer ask_cgal(const Case& c) {
     const ExactEnvironment environment;
     const std::optional<Found> f = found(c);
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-    if (!f) return {Region::degenerate, Feature::degenerate, 0, {}, {nan, nan, nan, nan}, nan};
+    if (!f) return degenerate_answer();
     OracleAnswer a;
     Number value = 0;
     bool negative = false;

@@ -22,14 +22,17 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 // 2^249. A value numerator adds 61 + 2 bits. Quotients are shifted by at most the length of the denominator plus 56
 // bits. All this stays below 512 bits.
 
-template <class C, class M, class N>
-struct Integers {
-    using Coordinate = C;
-    using Minor = M;
-    using Number = N;
+struct Narrow {
+    using Coordinate = std::int64_t;
+    using Minor = Int128;
+    using Number = FixedInteger;
 };
-using Narrow = Integers<std::int64_t, Int128, FixedInteger>;
-using Wide = Integers<BigInteger, BigInteger, BigInteger>;
+
+struct Wide {
+    using Coordinate = BigInteger;
+    using Minor = BigInteger;
+    using Number = BigInteger;
+};
 
 template <class Types>
 struct Solution {
@@ -114,25 +117,34 @@ Solution<Types> solve(const Case& c, const Scales& scales) {
     const auto v = relative_vertices<Types>(c, scales);
     Solution<Types> s;
     auto& n = s.numerators;
-    if (c.simplex == Simplex::tetrahedron) {
-        // det(a,b,c,d rows minus one): a x b and c x d give all four.
-        const auto ab = cross<Types>(v[0], v[1]);
-        const auto cd = cross<Types>(v[2], v[3]);
-        n = {dot(cd, v[1]), -dot(cd, v[0]), dot(ab, v[3]), -dot(ab, v[2])};
-        s.denominator = n[0] + n[1] + n[2] + n[3];
-    } else if (c.simplex == Simplex::triangle) {
-        for (std::size_t i = 0; i < 3; ++i) n[i] = cross<Types>(v[(i + 1) % 3], v[(i + 2) % 3])[2];
-        s.denominator = n[0] + n[1] + n[2];
-    } else if (c.simplex == Simplex::triangle3d) {
-        const auto normal = cross<Types>(difference<Types>(v[1], v[0]), difference<Types>(v[2], v[0]));
-        for (std::size_t i = 0; i < 3; ++i) n[i] = dot(normal, cross<Types>(v[(i + 1) % 3], v[(i + 2) % 3]));
-        s.denominator = dot(normal, normal);
-    } else {
-        const auto edge = difference<Types>(v[1], v[0]);
-        const std::array e{N(edge[0]), N(edge[1]), N(edge[2])};
-        n[0] = dot(e, v[1]);
-        n[1] = -dot(e, v[0]);
-        s.denominator = dot(e, e);
+    switch (c.simplex) {
+        case Simplex::tetrahedron: {
+            // det(a,b,c,d rows minus one): a x b and c x d give all four.
+            const auto ab = cross<Types>(v[0], v[1]);
+            const auto cd = cross<Types>(v[2], v[3]);
+            n = {dot(cd, v[1]), -dot(cd, v[0]), dot(ab, v[3]), -dot(ab, v[2])};
+            s.denominator = n[0] + n[1] + n[2] + n[3];
+            break;
+        }
+        case Simplex::triangle: {
+            for (std::size_t i = 0; i < 3; ++i) n[i] = cross<Types>(v[(i + 1) % 3], v[(i + 2) % 3])[2];
+            s.denominator = n[0] + n[1] + n[2];
+            break;
+        }
+        case Simplex::triangle3d: {
+            const auto normal = cross<Types>(difference<Types>(v[1], v[0]), difference<Types>(v[2], v[0]));
+            for (std::size_t i = 0; i < 3; ++i) n[i] = dot(normal, cross<Types>(v[(i + 1) % 3], v[(i + 2) % 3]));
+            s.denominator = dot(normal, normal);
+            break;
+        }
+        case Simplex::segment: {
+            const auto edge = difference<Types>(v[1], v[0]);
+            const std::array e{N(edge[0]), N(edge[1]), N(edge[2])};
+            n[0] = dot(e, v[1]);
+            n[1] = -dot(e, v[0]);
+            s.denominator = dot(e, e);
+            break;
+        }
     }
     return s;
 }
@@ -166,7 +178,7 @@ OracleAnswer answer(const Case& c, const Scales& scales) {
     if (c.perspective) apply_perspective<Types>(c, scales, s);
     const auto count = static_cast<std::size_t>(vertex_count(c.simplex));
     const int orientation = s.denominator.sign();
-    if (orientation == 0) return {Region::degenerate, Feature::degenerate, 0, {}, {nan, nan, nan, nan}, nan};
+    if (orientation == 0) return degenerate_answer();
     OracleAnswer a;
     bool negative = false;
     N value(0);

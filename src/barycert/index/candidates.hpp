@@ -33,7 +33,8 @@ struct Item {
 /// of good meshes have some tens of cells.
 inline constexpr std::size_t crowd = 256;
 
-/// More than `crowd` of the items are at one node, whose nodes are nodes_of(item).
+/// More than `crowd` of the items, numbers below `items`, have one node in common; nodes_of(i): those of item i, below
+/// `nodes`.
 template <class NodesOf>
 bool is_crowded(std::size_t nodes, std::size_t items, NodesOf nodes_of) {
     std::vector<std::uint32_t> count(nodes, 0);

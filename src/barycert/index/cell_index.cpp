@@ -167,12 +167,16 @@ Buffer<KeyedPlace> order_cells(const Cells& mesh, const Bins& bins) {
     });
     sort_by_key(wholes, bins.bits());
     if (mesh.wholes.empty()) return wholes;
-    Buffer<KeyedPlace> cells(count);
-    std::size_t next = 0;
-    for (const KeyedPlace& whole : std::span<const KeyedPlace>(wholes)) {
-        const auto w = static_cast<std::size_t>(whole.place);
-        for (Mesh::Index c = mesh.wholes[w]; c != mesh.wholes[w + 1]; ++c) cells[next++] = {whole.key, c};
+    std::vector<std::size_t> first(wholes.size() + 1, 0);
+    for (std::size_t i = 0; i < wholes.size(); ++i) {
+        const auto w = static_cast<std::size_t>(wholes[i].place);
+        first[i + 1] = first[i] + first_of(w + 1) - first_of(w);
     }
+    Buffer<KeyedPlace> cells(count);
+    base::parallel_for_each(wholes.size(), grain, [&](std::size_t i) {
+        auto cell = static_cast<Place>(first_of(static_cast<std::size_t>(wholes[i].place)));
+        for (std::size_t place = first[i]; place < first[i + 1]; ++place) cells[place] = {wholes[i].key, cell++};
+    });
     return cells;
 }
 

@@ -77,9 +77,9 @@ Item item_of(const CellIndex& index, Place cell) {
     return item;
 }
 
-bool for_each_near(const CellIndex& index, std::span<const Item> items, std::size_t few,
-                   const std::function<const CellTree&()>& tree,
-                   const std::function<Decided(std::size_t, Place)>& use) {
+bool for_each_near_cell(const CellIndex& index, std::span<const Item> items, std::size_t few,
+                        const std::function<const CellTree&()>& tree,
+                        const std::function<Decided(std::size_t, Place)>& use) {
     const auto nodes_of = [&](std::size_t c) { return std::span(index.cells[c].node).first(index.corners()); };
     if (items.size() < few && !is_crowded(index.original_node.size(), index.cell_count(), nodes_of)) {
         const CellTree& cells = tree();
@@ -103,7 +103,7 @@ std::vector<std::uint8_t> find_overlapped(const CellIndex& index, std::span<cons
     std::vector<std::uint8_t> out(asked.size(), 0);
     std::vector<Item> items(asked.size());
     for (std::size_t i = 0; i < asked.size(); ++i) items[i] = item_of(index, asked[i]);
-    for_each_near(index, items, (index.cell_count() + 63) / 64, tree, [&](std::size_t i, Place cell) {
+    for_each_near_cell(index, items, (index.cell_count() + 63) / 64, tree, [&](std::size_t i, Place cell) {
         const std::atomic_ref<std::uint8_t> flag(out[i]);
         if (flag.load(std::memory_order_relaxed) != 0) return Decided::item;
         if (asked[i] == cell || std::ranges::binary_search(degenerate, cell) ||

@@ -22,11 +22,13 @@ Item item_of(const CellIndex& index, Place cell);
 enum class Decided : std::uint8_t { nothing, item, cell };
 
 /// use(i, cell) for each item i and each cell that may have a point in common with it beside the face of their common
-/// nodes, but for more pairs of what is decided. Fewer items than `few` are looked up in the tree of all cells. If they
-/// are more, or if there is a node around which the boxes of too many cells meet, all cells are looked up among them;
-/// then cells that have all nodes of an item are left out, and it returns false. On the threads of the calling arena.
-bool for_each_near(const CellIndex& index, std::span<const Item> items, std::size_t few,
-                   const std::function<const CellTree&()>& tree, const std::function<Decided(std::size_t, Place)>& use);
+/// nodes. Fewer items than `few` are looked up in the tree of all cells. If they are more, or if there is a node around
+/// which the boxes of too many cells meet, all cells are looked up among them; then cells that have all nodes of an
+/// item may be left out, and it returns false. `use` may be called again for what is decided: that ends the search
+/// around the item (few) or the cell (many) alone. On the threads of the calling arena.
+bool for_each_near_cell(const CellIndex& index, std::span<const Item> items, std::size_t few,
+                        const std::function<const CellTree&()>& tree,
+                        const std::function<Decided(std::size_t, Place)>& use);
 
 /// 1 for each of the cells `asked` whose interior meets that of another cell. Those that are degenerate (ascending) are
 /// not looked at. On the threads of the calling arena.

@@ -134,11 +134,11 @@ private:
         for (const Place cell : links_.degenerate) contest(cell);
         std::vector<Item> items(bad.size());
         for (std::size_t f = 0; f < bad.size(); ++f) items[f] = item_of(bad[f], d());
-        const bool all = for_each_near(index_, items, SIZE_MAX, tree_, [&](std::size_t f, Place cell) {
+        const bool by_tree = for_each_near_cell(index_, items, SIZE_MAX, tree_, [&](std::size_t f, Place cell) {
             if (!contested(cell) && may_cross(index_, cell, bad[f])) contest(cell);
             return contested(cell) ? Decided::cell : Decided::nothing;
         });
-        if (all) return;
+        if (by_tree) return;
         // A facet of a cell's own nodes meets it in a common face, so it was no candidate.
         std::vector<std::array<Mesh::Index, 3>> nodes(bad.size());
         for (std::size_t f = 0; f < bad.size(); ++f) nodes[f] = bad[f].nodes;

@@ -66,7 +66,10 @@ Sink open_vti(const std::string& path, const TableFormat& format, const Grid& gr
         for (std::size_t i = 0; i < mask.size(); ++i) mask[i] = rows.cells[i] >= 0 ? 1 : 0;
         put(mask);
         put(rows.cells);
-        for (const Column& column : rows.carried) std::visit(put, column.values);  // no texts
+        for (const Column& column : rows.carried) {  // texts were refused
+            const auto* const integers = std::get_if<std::vector<std::int64_t>>(&column.values);
+            integers != nullptr ? put(*integers) : put(std::get<std::vector<double>>(column.values));
+        }
         return done;
     };
     return jobs::sink_of(write, [file] { return file->commit(); });

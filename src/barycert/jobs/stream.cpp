@@ -66,6 +66,9 @@ private:
 
     void work(Block& block) const {
         Table& rows = block.rows;
+        block.outside.reset();
+        if (source_.located) look_outside(block);
+        if (block.outside) return;
         if (source_.located)
             mesh_.sampler().evaluate(rows.points, options_, rows, block.first).value();
         else if (mesh_.report.all)
@@ -76,8 +79,7 @@ private:
         if (targets_.known != nullptr) block.located = rows.cells;
         if (weights_) block.weights = mesh_.weights_of(rows.view());
         mesh_.name_cells(rows);
-        if (mesh_.job.options.outside.kind == Outside::error)
-            block.outside = locate::first_outside(rows.cells, rows.points, static_cast<std::size_t>(rows.dimension));
+        if (!source_.located) look_outside(block);
         block.nan_values = count_nan(rows.view());
     }
 
@@ -88,6 +90,12 @@ private:
         const LocationCounts locations = rows.counts.locations;
         mesh_.sampler().evaluate(rows.points, options_, rows).value();
         rows.counts.locations = locations;
+    }
+
+    void look_outside(Block& block) const {
+        if (mesh_.job.options.outside.kind != Outside::error) return;
+        const Table& rows = block.rows;
+        block.outside = locate::first_outside(rows.cells, rows.points, static_cast<std::size_t>(rows.dimension));
     }
 
     Error refused(const Block& block) const {
@@ -174,6 +182,17 @@ void sample_rows(SampledMesh& mesh, const RowSource& source, const OpenRows& ope
         const RowSource again = rows_again(known);
         RowStream(mesh, anew ? source : again, open, targets).go();
     });
+}
+
+Error outside_error(const std::string& what, std::span<const double> where, const std::string& file) {
+    return file_error(file, what + ", counted from 0, is outside the mesh", "",
+                      "(" + base::joined(where, ", ", base::shortest) + ")",
+                      "choose what points outside get: job.outside nan, fill=V, nearest or extrapolate");
+}
+
+void refuse_kept(const std::string& name) {
+    refuse("", "a column to keep has the name of another column of the rows", "", base::quoted(name),
+           "name the columns to keep, with another name for this one: job.keep OTHER=" + base::printable(name));
 }
 
 std::uint64_t count_nan(const TableView& rows) {

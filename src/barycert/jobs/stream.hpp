@@ -83,10 +83,7 @@ void sample_rows(SampledMesh& mesh, const RowSource& source, const OpenRows& ope
 using OpenFormat = std::function<Sink(const TableFormat& format)>;
 
 /// A column of the points that the rows cannot have, too.
-[[noreturn]] inline void refuse_kept(const std::string& name) {
-    refuse("", "a column to keep has the name of another column of the rows", "", base::quoted(name),
-           "name the columns to keep, with another name for this one: job.keep OTHER=" + base::printable(name));
-}
+[[noreturn]] void refuse_kept(const std::string& name);
 
 /// Opens an output by open(format of its rows) and returns what takes rows whose cells are those of the mesh, and gives
 /// it what users are to see: cells by their numbers in the file, labels that the job asked for, and `carried` columns
@@ -126,11 +123,7 @@ inline SampleOptions without_refusal(SampleOptions options) {
 }
 
 /// That `what` ("point 7"), at `where`, is outside, and none may be.
-inline Error outside_error(const std::string& what, std::span<const double> where, const std::string& file) {
-    return file_error(file, what + ", counted from 0, is outside the mesh", "",
-                      "(" + base::joined(where, ", ", base::shortest) + ")",
-                      "choose what points outside get: job.outside nan, fill=V, nearest or extrapolate");
-}
+Error outside_error(const std::string& what, std::span<const double> where, const std::string& file);
 
 std::uint64_t count_nan(const TableView& rows);
 

@@ -13,7 +13,7 @@ namespace {
 
 using kernels::Description;
 
-/// What names are of, so that they survive shells, globs and file names.
+/// The characters of a kernel's name, so that it survives shells, globs and file names.
 constexpr const char* usable = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_.";
 
 /// The kernel that a library describes, its functions aside.

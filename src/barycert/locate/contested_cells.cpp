@@ -45,19 +45,12 @@ ContestedCells::Lists ContestedCells::make_lists() const {
         });
         count.fetch_add(pairs, std::memory_order_relaxed);
     });
-    Lists lists;
-    if (count.load() > most) return lists;
-    lists.begin.assign(cells_.size() + 1, 0);
-    for (const auto& pairs : found) {
-        for (const Pair& pair : pairs) ++lists.begin[pair.first + 1];
-    }
-    for (std::size_t i = 1; i < lists.begin.size(); ++i) lists.begin[i] += lists.begin[i - 1];
-    lists.lower.resize(lists.begin.back());
-    std::vector<std::uint32_t> next(lists.begin.begin(), lists.begin.end() - 1);
-    for (const auto& pairs : found) {
-        for (const Pair& pair : pairs) lists.lower[next[pair.first]++] = pair.second;
-    }
-    return lists;
+    if (count.load() > most) return {};
+    return Lists(cells_.size(), [&](const auto& add) {
+        for (const auto& pairs : found) {
+            for (const auto& [cell, lower] : pairs) add(cell, lower);
+        }
+    });
 }
 
 void ContestedCells::find_owners(const PointRecord* points, const std::uint32_t* which, std::size_t count, Place* owner,
@@ -71,11 +64,11 @@ void ContestedCells::find_owners(const PointRecord* points, const std::uint32_t*
         feature[i] = feature_of(index_, cell, signs);
     };
     const Lists* const lists = lists_.made();
-    if (lists != nullptr && !lists->begin.empty()) {
+    if (lists != nullptr && lists->size() != 0) {
         for (std::size_t i = 0; i < count; ++i) {
             const auto found = std::lower_bound(cells_.begin(), cells_.end(), owner[which[i]]);
             const auto at = static_cast<std::size_t>(found - cells_.begin());
-            for (std::uint32_t k = lists->begin[at]; k < lists->begin[at + 1]; ++k) ask(which[i], lists->lower[k]);
+            for (const Place lower : (*lists)[at]) ask(which[i], lower);
         }
         return;
     }

@@ -1,6 +1,7 @@
 /// The cells that others may meet beside common faces (doc/theorem.md), to find who else holds a point.
 #pragma once
 
+#include "barycert/base/lists.hpp"
 #include "barycert/index/cell_tree.hpp"
 #include "barycert/index/proof.hpp"
 #include "barycert/locate/lazy.hpp"
@@ -37,15 +38,8 @@ public:
     std::size_t bytes() const { return cells_.size() * sizeof(Place) + tree_.bytes() + bytes_of(lists_); }
 
 private:
-    /// For cells_[i], those of lower number in the mesh that may overlap it: lower[begin[i] .. begin[i + 1]). Empty if
-    /// there would be too many.
-    struct Lists {
-        std::vector<std::uint32_t> begin;
-        std::vector<Place> lower;
-
-        std::size_t bytes() const { return begin.size() * sizeof(std::uint32_t) + lower.size() * sizeof(Place); }
-    };
-
+    /// For cells_[i], those of lower number in the mesh that may overlap it. Empty if there would be too many.
+    using Lists = base::Lists<Place>;
     Lists make_lists() const;
 
     const CellIndex& index_;

@@ -69,9 +69,13 @@ const char* inconsistency_of_extras(const Mesh& mesh, FieldValues values) {
         return fault;
     const Mesh::Shapes& shapes = mesh.shapes;
     if (!fits(shapes.inside, mesh.cell_count())) return "its shapes do not match the cells";
-    if (shapes.count() != 0 && (shapes.parts.size() != shapes.count() + 1 || shapes.ends.size() != shapes.count() ||
-                                shapes.parts.back() != static_cast<Mesh::Index>(mesh.cell_count()) ||
-                                mesh.cell_numbers.size() != mesh.cell_count()))
+    const std::vector<Mesh::Index>& parts = shapes.parts;
+    const bool ascend = std::ranges::adjacent_find(parts, std::greater_equal()) == parts.end();
+    if (shapes.count() == 0
+            ? parts.size() > 1
+            : parts.size() != shapes.count() + 1 || shapes.ends.size() != shapes.count() || parts.front() != 0 ||
+                  !ascend || parts.back() != static_cast<Mesh::Index>(mesh.cell_count()) ||
+                  mesh.cell_numbers.size() != mesh.cell_count())
         return "its cells are not the parts of its shapes";
     if (!fits(mesh.mid_nodes, mesh.cell_count() * edges_of(mesh.dimension).size()))
         return "the mid-edge nodes do not match the cells";

@@ -15,7 +15,7 @@ constexpr std::array<Edge, 3> triangle_edges{{{0, 1}, {1, 2}, {0, 2}}};
 
 struct Sequence {
     MidEdgeOrder order;
-    std::array<std::size_t, 6> edges;
+    std::array<std::size_t, 6> edges;  ///< of each node in turn; in the plane three, and zeros
 };
 /// The first of a dimension is taken where no cell can tell.
 constexpr std::array<Sequence, 3> sequences_3d{{{MidEdgeOrder::tetgen15, {5, 3, 0, 1, 4, 2}},
@@ -88,7 +88,7 @@ std::optional<MidEdgeVote> detect_mid_edge_order(const Mesh& mesh) {
     std::size_t voters = 0;
     for (std::size_t cell = 0; cell < mesh.cell_count(); ++cell) {
         const Mesh::Index* const corners = &mesh.cells[cell * mesh.corners()];
-        std::array<std::size_t, 6> found{};
+        std::array<std::size_t, 6> found{};  // zeros behind those of a triangle, as in a Sequence
         bool abstains = false;
         for (std::size_t k = 0; k < edges.size() && !abstains; ++k) {
             found[k] = nearest_edge(mesh, corners, mesh.mid_nodes[cell * edges.size() + k], edges);

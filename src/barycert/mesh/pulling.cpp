@@ -44,7 +44,10 @@ class Faces {
 public:
     Faces(std::vector<std::vector<Index>> rings, std::size_t nodes) : rings_(std::move(rings)), of_node_(nodes) {
         for (std::size_t r = 0; r < rings_.size(); ++r) {
-            for (const Index node : rings_[r]) of_node_[static_cast<std::size_t>(node)].push_back(r);
+            for (const Index node : rings_[r]) {
+                auto& own = of_node_[static_cast<std::size_t>(node)];
+                if (own.empty() || own.back() != r) own.push_back(r);  // a ring may have a node twice
+            }
         }
     }
 
@@ -67,7 +70,8 @@ public:
         for (std::size_t first = 0; first < rings_.size(); ++first) {
             if (known[first] != 0) continue;
             known[first] = 1;
-            for (next = {first}; !next.empty();) {
+            next.push_back(first);
+            while (!next.empty()) {
                 const std::size_t own = next.back();
                 next.pop_back();
                 for (std::size_t i = 0; i < rings_[own].size(); ++i) {
@@ -94,7 +98,7 @@ public:
 private:
     const std::vector<std::size_t>& of(Index node) const { return of_node_[static_cast<std::size_t>(node)]; }
     static bool follows(const std::vector<Index>& ring, Index a, Index b) {
-        for (std::size_t i = 0; i < ring.size(); ++i) {  // a node may be there twice
+        for (std::size_t i = 0; i < ring.size(); ++i) {
             if (ring[i] == a && ring[(i + 1) % ring.size()] == b) return true;
         }
         return false;

@@ -237,7 +237,7 @@ Result<ClippedSegment> clip_segment(int dimension, std::span<const double> a, st
         const double x = k < d ? bound.normal[k] : bound.offset;
         if (!std::isfinite(x)) return raster::bad_bound("the half-space", "finite numbers", x);
     }
-    raster::SegmentClipper clipper{a, b};
+    raster::SegmentClipper clipper{.first = a, .second = b};
     clipper.clip(raster::distance_form(d, a.data(), b.data(), bound));
     return clipper.result();
 }
@@ -245,7 +245,7 @@ Result<ClippedSegment> clip_segment(int dimension, std::span<const double> a, st
 Result<ClippedSegment> clip_segment(int dimension, std::span<const double> a, std::span<const double> b,
                                     const ClipBox& box) {
     if (Status good = raster::check_segment(dimension, a, b); !good) return good.error();
-    raster::SegmentClipper clipper{a, b};
+    raster::SegmentClipper clipper{.first = a, .second = b};
     for (std::size_t k = 0; k < static_cast<std::size_t>(dimension); ++k) {
         for (const double x : {box.min[k], box.max[k]}) {
             if (std::isnan(x)) return raster::bad_bound("a bound of the box", "a number", x);

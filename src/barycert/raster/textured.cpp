@@ -5,6 +5,7 @@
 
 #include "barycert/base/arena.hpp"
 #include "barycert/base/finite.hpp"
+#include "barycert/base/lists.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/raster/edge.hpp"
 
@@ -46,30 +47,24 @@ public:
     std::int32_t end_row(std::size_t band) const { return std::min(height_, first_row(band) + rows_); }
     /// Of work: a row takes a fourth of the time of a point.
     std::size_t pieces() const { return rows_of_triangles_ / 4; }
-    std::span<const std::uint32_t> triangles(std::size_t band) const {
-        return std::span(list_).subspan(start_[band], start_[band + 1] - start_[band]);
-    }
+    std::span<const std::uint32_t> triangles(std::size_t band) const { return lists_[band]; }
 
     /// Takes the triangles begin, ..., end - 1.
     void sort(std::span<const TexturedVertex> vertices, std::size_t begin, std::size_t end) {
         met_.resize(end - begin);
-        start_.fill(0);
         rows_of_triangles_ = 0;
         for (std::size_t k = begin; k < end; ++k) {
             const auto [low, high] = std::minmax({vertices[3 * k].y, vertices[3 * k + 1].y, vertices[3 * k + 2].y});
             const std::int32_t first = first_centre_above(low, height_), last = first_centre_above(high, height_);
             rows_of_triangles_ += static_cast<std::size_t>(last - first);
             met_[k - begin] = {first / rows_, first == last ? first / rows_ : (last - 1) / rows_ + 1};
-            for (std::int32_t b = met_[k - begin].first; b < met_[k - begin].end; ++b)
-                ++start_[static_cast<std::size_t>(b) + 2];
         }
-        for (std::size_t b = 2; b < start_.size(); ++b) start_[b] += start_[b - 1];
-        list_.resize(start_.back());
-        // start_[b + 1] is where band b goes on, and in the end where it ends.
-        for (std::size_t k = begin; k < end; ++k) {
-            for (std::int32_t b = met_[k - begin].first; b < met_[k - begin].end; ++b)
-                list_[start_[static_cast<std::size_t>(b) + 1]++] = static_cast<std::uint32_t>(k);
-        }
+        lists_ = {count(), [&](const auto& add) {
+                      for (std::size_t k = begin; k < end; ++k) {
+                          for (std::int32_t b = met_[k - begin].first; b < met_[k - begin].end; ++b)
+                              add(static_cast<std::size_t>(b), static_cast<std::uint32_t>(k));
+                      }
+                  }};
     }
 
 private:
@@ -81,8 +76,7 @@ private:
     std::int32_t height_, rows_;
     std::size_t rows_of_triangles_ = 0;
     std::vector<Met> met_;
-    std::vector<std::uint32_t> list_;
-    std::array<std::size_t, most_bands + 2> start_{};
+    base::Lists<std::uint32_t> lists_;  ///< triangles of each band
 };
 
 }  // namespace

@@ -49,7 +49,7 @@ void tell_values(Document& d, const SampleReport& s) {
         text += fmt::format("; decided by the filter {}, by double-double {}, by integers {}", t.filter,
                             t.double_double, t.exact);
     if (s.counts.undecided != 0)
-        text += fmt::format("; of {} undecided how they round, off by at most {:.2g}",
+        text += fmt::format("; how the values of {} round is not decided: they are off by at most {:.2g}",
                             counted(s.counts.undecided, "point"), s.counts.max_off);
     if (s.counts.unmapped != 0)
         text += fmt::format("; {} got the values of the parts of cells: not found in their maps",

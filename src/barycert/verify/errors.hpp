@@ -39,11 +39,17 @@ inline ValueError compare(double claimed, double exact, double range) {
     if (no_claim || no_value)
         return {no_claim ? Compared::missing : Compared::spurious, 0, std::numeric_limits<double>::infinity()};
     if (claimed == exact) return {Compared::identical};
-    constexpr double most = std::numeric_limits<double>::max();
-    const double ulps = std::isinf(claimed) || std::isinf(exact) ? most
-                        : exact != 0                             ? base::ulp_error(claimed, exact)
-                                     : std::min(std::ldexp(std::fabs(claimed), -base::ulp_exponent(range)), most);
-    return {Compared::different, ulps, relative_error(claimed, exact, range)};
+    ValueError error{Compared::different};
+    error.relative = relative_error(claimed, exact, range);
+    if (std::isinf(claimed) || std::isinf(exact)) {
+        error.ulps = std::numeric_limits<double>::max();
+    } else if (exact != 0) {
+        error.ulps = base::ulp_error(claimed, exact);
+    } else {
+        error.ulps =
+            std::min(std::ldexp(std::fabs(claimed), -base::ulp_exponent(range)), std::numeric_limits<double>::max());
+    }
+    return error;
 }
 
 static_assert(std::tuple_size_v<decltype(ValueErrors::by_relative)> == base::decade_bins);
@@ -54,14 +60,18 @@ inline void count(const ValueError& error, double claimed, const VerifyOptions& 
     if (error.compared == Compared::spurious) return void(++to.spurious);
     ++to.values;
     to.floats += static_cast<double>(static_cast<float>(claimed)) == claimed ? 1 : 0;
-    const bool identical = error.compared == Compared::identical;
-    to.identical += identical ? 1 : 0;
+    if (error.compared == Compared::identical) {
+        ++to.identical;
+        ++to.by_ulps[0];
+        ++to.by_relative[0];
+        return;
+    }
     to.over += error.over(options) ? 1 : 0;
     to.max_ulps = std::max(to.max_ulps, error.ulps);
     to.max_relative = std::max(to.max_relative, error.relative);
     const int bin = std::clamp(std::ilogb(std::max(error.ulps, 0.5)) + 2, 1, static_cast<int>(to.by_ulps.size()) - 1);
-    ++to.by_ulps[identical ? 0 : static_cast<std::size_t>(bin)];
-    ++to.by_relative[identical ? 0 : base::decade_bin(error.relative)];
+    ++to.by_ulps[static_cast<std::size_t>(bin)];
+    ++to.by_relative[base::decade_bin(error.relative)];
 }
 
 }  // namespace barycert::verify

@@ -4,6 +4,7 @@
 #include "barycert/base/arena.hpp"
 #include "barycert/base/finite.hpp"
 #include "barycert/environment.hpp"
+#include "barycert/locate/batch.hpp"
 #include "barycert/sample/points/sampler_data.hpp"
 #include "barycert/sample/quantity/quantities.hpp"
 #include "barycert/verify.hpp"
@@ -66,6 +67,7 @@ Verifier::Verifier(const Sampler& sampler, const VerifyOptions& options) : sampl
 
 Status Verifier::measure(Verdicts& verdicts) const {
     const ExactEnvironment environment;
+    if (!sampler_.locator().mesh().is_listed()) return locate::not_listed("rows to measure");
     std::vector<WrongRow>& rows = verdicts.invented_rows;
     base::in_arena(options_.threads, 1024 * rows.size(), [&] {
         base::parallel_for(rows.size(), [&](std::size_t i) {
@@ -77,7 +79,7 @@ Status Verifier::measure(Verdicts& verdicts) const {
                 rows[i].distance = std::numeric_limits<double>::quiet_NaN();
                 return;
             }
-            // The point is finite: there is no Error.
+            // The point is finite, and the mesh lists its cells: there is no Error.
             const Nearest nearest = sampler_.locator().nearest(rows[i].point.data(), anywhere).value();
             rows[i].severity = rows[i].distance = nearest.distance;
         });

@@ -79,6 +79,33 @@ TEST(VtkLabels, GhostCellsAreLeftOut) {
     EXPECT_FALSE(read_vtk(folder / "m.vtu"));
 }
 
+/// Pieces of two tetrahedra each, of which those have ghost cells that `ghosts` names.
+std::string pieces(const std::vector<std::string>& ghosts) {
+    std::string text = "<VTKFile type='UnstructuredGrid'><UnstructuredGrid>";
+    for (const std::string& own : ghosts) {
+        text += "<Piece NumberOfPoints='5' NumberOfCells='2'><CellData>";
+        if (!own.empty()) text += "<DataArray type='UInt8' Name='vtkGhostType'>" + own + "</DataArray>";
+        text +=
+            "</CellData><Points><DataArray type='Float64' NumberOfComponents='3'>0 0 0 1 0 0 0 1 0 0 0 1 1 1 1"
+            "</DataArray></Points><Cells><DataArray type='Int32' Name='connectivity'>0 1 2 3 1 2 3 4</DataArray>"
+            "<DataArray type='Int32' Name='offsets'>4 8</DataArray><DataArray type='UInt8' Name='types'>10 10"
+            "</DataArray></Cells></Piece>";
+    }
+    return text + "</UnstructuredGrid></VTKFile>";
+}
+
+TEST(VtkLabels, GhostCellsOfSomePieces) {
+    using Cells = std::vector<Mesh::Index>;
+    const std::vector<std::pair<std::vector<std::string>, Cells>> files{
+        {{"0 1", ""}, {0, 2, 3}}, {{"", "0 1"}, {0, 1, 2}}, {{"", "1 0", ""}, {0, 1, 3, 4, 5}}};
+    for (const auto& [ghosts, left] : files) {
+        const Mesh mesh = read_text_of(pieces(ghosts));
+        EXPECT_EQ(mesh.cell_numbers, left);
+        EXPECT_EQ(notes_of(mesh), (Texts{"1 ghost cells, which stand for cells of other pieces or are hidden "
+                                         "(vtkGhostType)"}));
+    }
+}
+
 /// Only the integer of a cell that is left out is no double.
 TEST(VtkLabels, WhatIsLeftMayBeAField) {
     const TemporaryFolder folder;

@@ -59,6 +59,7 @@ constexpr FaultyFormula areas_and_volumes[] = {
      [](Numbers v, Numbers p, double* w) { return magnitude(twice_area(v)) < 1e-12 ? 1 : signed_area(v, p, w); }},
     {"tetrahedron.signed-volume", "swapped-vertices", "the weights of a and d are exchanged", signed_volume<double>,
      [](Numbers, Numbers, double* w) { std::swap(w[0], w[3]); }},
+    // The row (b, a, c) for (a, b, c): an odd permutation.
     {"tetrahedron.signed-volume", "odd-permutation", "one determinant with two rows exchanged", signed_volume<double>,
      [](Numbers, Numbers, double* w) { w[3] = -w[3]; }},
     {"tetrahedron.signed-volume", "wrong-index", "x of a vertex where its y belongs", signed_volume<double>,
@@ -68,6 +69,7 @@ constexpr FaultyFormula areas_and_volumes[] = {
          u[10] = v[9];
          if (signed_volume(u, p, x) == 0) w[0] = x[0];
      }},
+    // A determinant without the last of the three products with its minors.
     {"tetrahedron.signed-volume", "dropped-term", "one product of a determinant is missing", signed_volume<double>,
      [](Numbers v, Numbers p, double* w) {
          const auto q = at3(p, 0), edge = at3(v, 1) - q, minor = cross(at3(v, 2) - q, at3(v, 3) - q);

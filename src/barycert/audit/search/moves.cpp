@@ -1,5 +1,7 @@
 #include "barycert/audit/search/moves.hpp"
 
+#include "barycert/audit/recipes.hpp"
+
 namespace barycert::audit {
 namespace {
 
@@ -27,7 +29,7 @@ double drawn(base::Random& random, int exponent, int bits) {
 /// Zero moves by the ulp of the largest on its axis: its neighbours would be subnormal.
 double moved_by_ulps(const Case& c, int k, std::int64_t ulps) {
     const double x = coordinate(c, k);
-    if (x != 0) return places_above(x, ulps);
+    if (x != 0) return base::places_above(x, ulps);
     double max = 0;
     for (int j = 0; j < coordinate_count(c); ++j) {
         if (axis_of(c, j) == axis_of(c, k)) max = std::max(max, std::fabs(coordinate(c, j)));
@@ -44,7 +46,7 @@ void redraw_significand(Case& c, base::Random& random) {
         x = std::copysign(drawn(random, exponent, kind == 0 ? 53 : 1 + pick(random, 53)), x);
     } else {  // the last bits alone
         const auto span = static_cast<double>(std::int64_t{1} << pick(random, 40));
-        x = places_above(x, static_cast<std::int64_t>(random.uniform(-span, span)));
+        x = base::places_above(x, static_cast<std::int64_t>(random.uniform(-span, span)));
     }
 }
 
@@ -124,7 +126,7 @@ void wander(Case& c, base::Random& random, bool values) {
     if (values && pick(random, 4) == 0) {
         double& f = c.values[static_cast<std::size_t>(pick(random, vertex_count(c.simplex)))];
         const std::int64_t by = small_power(random, 50);
-        f = random.coin() ? places_above(f, random.coin() ? by : -by) : random.uniform(-1, 1);
+        f = random.coin() ? base::places_above(f, random.coin() ? by : -by) : random.uniform(-1, 1);
         return;
     }
     const int changes = static_cast<int>(small_power(random, 2));

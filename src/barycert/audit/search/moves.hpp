@@ -1,9 +1,10 @@
 /// The numbers of a case that a search changes, as one row; the steps of a walk, and where walks start.
 #pragma once
 
-#include "barycert/audit/recipes.hpp"
 #include "barycert/audit/search/evaluation.hpp"
 #include "barycert/base/finite.hpp"
+#include "barycert/base/random.hpp"
+#include "barycert/base/ulp.hpp"
 
 namespace barycert::audit {
 

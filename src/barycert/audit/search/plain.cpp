@@ -175,7 +175,7 @@ private:
         to_zero(c, at, zero, first_step(c, zero.coordinate), range_, asked);
         const double x = coordinate(c, zero.coordinate);
         for (const int ulps : {0, 1, -1, 2, -2, 4, -4}) {
-            coordinate(c, zero.coordinate) = places_above(x, ulps);
+            coordinate(c, zero.coordinate) = base::places_above(x, ulps);
             if (take(c)) return true;
         }
         return false;

@@ -167,10 +167,16 @@ Witness witness_of(const SearchOptions& o, std::size_t reason, const Met& met) {
     return w;
 }
 
-/// Tells the report of its steps, and whether the kernel was given up in them.
-SearchFind find_of(const SearchOptions& o, std::size_t reason, const Harvest& all, SearchReport& report) {
+struct Shown {
+    SearchFind find;
+    std::uint64_t plain_steps = 0;
+    bool given_up = false;
+};
+
+Shown shown(const SearchOptions& o, std::size_t reason, const Harvest& all) {
     const Met &worst = all.worst[reason].front(), &met = reason < finding_count ? all.plain[reason] : worst;
-    SearchFind f;
+    Shown s;
+    SearchFind& f = s.find;
     f.reason = search_reason_name(reason);
     f.cases = all.cases[reason];
     f.found = witness_of(o, reason, worst);
@@ -180,29 +186,26 @@ SearchFind find_of(const SearchOptions& o, std::size_t reason, const Harvest& al
     Evaluation e = met.evaluation;
     // Each trial of an accident may cost a process, or the time limit: the plainest that was met is plain enough.
     if (!is_accident(reason) && !all.given_up) {
-        std::uint64_t steps = 0;
         const auto plainest = [&](const Witness& w) {
-            return plainest_witness(o.kernel, w, &steps, o.min_exponent, o.max_exponent);
+            return plainest_witness(o.kernel, w, &s.plain_steps, o.min_exponent, o.max_exponent);
         };
         Witness plain = plainest(f.found);
         if (reason < finding_count) {
             Witness other = plainest(f.plain);
             if (plain_cost(other.c) < plain_cost(plain.c)) plain = std::move(other);
         }
-        std::atomic_ref(report.plain_steps) += steps;
         const Evaluation p = evaluate(o.kernel, plain.c);
+        s.given_up = !p.said.ran;
         if (p.said.ran) {
             f.plain = std::move(plain);
             if (is_incident(reason)) f.plain.detail = p.detail;
             e = p;
-        } else {
-            std::atomic_ref(report.given_up) = true;
         }
     }
     f.plain_weight_ulp = e.comparison.worst_weight_ulp();
     f.plain_relative_error = e.relative_error;
     for (int k = 0; k < coordinate_count(f.plain.c); ++k) f.plain_bits += significant_bits(coordinate(f.plain.c, k));
-    return f;
+    return s;
 }
 
 Status check(const SearchOptions& o) {
@@ -269,9 +272,13 @@ Result<SearchReport> search_worst_case(const SearchOptions& o) {
         if (met) reasons.push_back(r);
     }
     report.given_up = all.given_up;
-    report.finds.resize(reasons.size());
-    on_threads(report.threads, reasons.size(),
-               [&](std::size_t i) { report.finds[i] = find_of(o, reasons[i], all, report); });
+    std::vector<Shown> finds(reasons.size());
+    on_threads(report.threads, reasons.size(), [&](std::size_t i) { finds[i] = shown(o, reasons[i], all); });
+    for (Shown& s : finds) {
+        report.plain_steps += s.plain_steps;
+        report.given_up = report.given_up || s.given_up;
+        report.finds.push_back(std::move(s.find));
+    }
     report.seconds = elapsed();
     return report;
 }

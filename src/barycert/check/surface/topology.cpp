@@ -1,3 +1,4 @@
+#include "barycert/base/lists.hpp"
 #include "barycert/check/surface/parts.hpp"
 
 namespace barycert::check {
@@ -5,23 +6,18 @@ namespace barycert::check {
 void link_triangles(SurfaceParts& s) {
     s.edges = ridges_of(3, s.triangles.facets);
     const auto& facets = s.triangles.facets;
-    std::vector<std::uint32_t> end(s.triangles.index.original_node.size(), 0), at(3 * facets.size());
-    for (const PlacedFacet& f : facets) {
-        for (const Mesh::Index n : f.nodes) ++end[static_cast<std::size_t>(n)];
-    }
-    std::uint32_t sum = 0;
-    for (std::uint32_t& count : end) sum += std::exchange(count, sum);
-    for (std::size_t f = 0; f < facets.size(); ++f) {
-        for (const Mesh::Index n : facets[f].nodes)
-            at[end[static_cast<std::size_t>(n)]++] = static_cast<std::uint32_t>(f);
-    }
-    std::vector<std::uint8_t> several(end.size(), 0);  // fans
-    base::parallel_for(end.size(), 1024, [&](std::size_t first, std::size_t last) {
+    const base::Lists<std::uint32_t> around(s.triangles.index.original_node.size(), [&](const auto& add) {
+        for (std::size_t f = 0; f < facets.size(); ++f) {
+            for (const Mesh::Index n : facets[f].nodes) add(static_cast<std::size_t>(n), static_cast<std::uint32_t>(f));
+        }
+    });
+    std::vector<std::uint8_t> several(around.size(), 0);  // fans
+    base::parallel_for(around.size(), 1024, [&](std::size_t first, std::size_t last) {
         std::vector<Mesh::Index> ring;  // the other nodes of triangles at the node, two each
         for (std::size_t n = first; n < last; ++n) {
             ring.clear();
-            for (std::uint32_t i = n == 0 ? 0 : end[n - 1]; i < end[n]; ++i) {
-                for (const Mesh::Index other : facets[at[i]].nodes) {
+            for (const std::uint32_t f : around[n]) {
+                for (const Mesh::Index other : facets[f].nodes) {
                     if (other != static_cast<Mesh::Index>(n)) ring.push_back(other);
                 }
             }
@@ -39,7 +35,7 @@ void link_triangles(SurfaceParts& s) {
         }
     });
     for (std::size_t n = 0; n < several.size(); ++n) {
-        if (several[n] != 0) s.pinched.push_back({static_cast<Place>(n), static_cast<Place>(at[end[n] - 1])});
+        if (several[n] != 0) s.pinched.push_back({static_cast<Place>(n), static_cast<Place>(around[n].back())});
     }
 }
 

@@ -28,19 +28,20 @@ LineReader::LineReader(const std::string& path) : name_(path == "-" ? "standard 
     const bool small = S_ISREG(status.st_mode) && static_cast<std::uint64_t>(status.st_size) < longest_line;
     const std::size_t room = small ? static_cast<std::size_t>(status.st_size) + 1 : longest_line;
     buffer_.resize(room + 1);  // the last byte stays zero: a scanner may look at it
-    skip_mark();
+    skip_mark(path == "-");
 }
 
-void LineReader::skip_mark() {
+void LineReader::skip_mark(bool standard_input) {
     while (end_ < 3 && !ended_) refill();
     const std::string_view head(buffer_.data(), end_);
     if (head.starts_with("\x93NU"))
         refuse_file(name_, "this is an NPY file", "text: a point a line", {},
                     "name a file that ends in .npy: a stream or a file of another name is read as CSV");
-    if (head.starts_with("\x1f\x8b"))
-        refuse_file(name_, "a stream that is packed by gzip", "text: a point a line", {}, "unpack it: gunzip | ...");
-    if (const OtherFormat* packed = packed_format(head); packed != nullptr)
-        throw Exception(other_format_error(*packed, name_));
+    const OtherFormat* const packed = packed_format(head);
+    if (head.starts_with("\x1f\x8b") || (packed != nullptr && standard_input))
+        refuse_file(name_, packed != nullptr ? std::string("this is ") + packed->what : "this is packed by gzip",
+                    "text: a point a line", {}, "unpack it first: gunzip, xz -dc, ...");
+    if (packed != nullptr) throw Exception(other_format_error(*packed, name_));
     // A smaller part of the file, as a pipe gives, is decided line by line.
     base::check_beginning(head.substr(0, base::first_block), base::Text::words, name_).value();
     if (head.starts_with("\xFF\xFE") || head.starts_with("\xFE\xFF"))

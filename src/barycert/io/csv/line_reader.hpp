@@ -40,7 +40,7 @@ public:
 private:
     bool take_lines();
     void refill();
-    void skip_mark();
+    void skip_mark(bool standard_input);
 
     std::string name_;
     base::Descriptor file_;

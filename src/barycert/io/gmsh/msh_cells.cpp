@@ -38,7 +38,9 @@ std::string counted_types(const TypeCounts& counts) {
     return base::joined(counts, ", ", [](const TypeCounts::value_type& one) {
         const auto [type, count] = one;
         std::string name(family_names[static_cast<std::size_t>(type->family)]);
-        if (count != 1) name.ends_with("on") ? name.replace(name.size() - 2, 2, "a") : name += 's';
+        const bool greek = name.ends_with("on");  // polyhedron, polyhedra
+        if (count != 1 && greek) name.replace(name.size() - 2, 2, "a");
+        if (count != 1 && !greek) name += 's';
         return std::to_string(count) + " " + name + (type->order > 1 ? " of order " + std::to_string(type->order) : "");
     });
 }
@@ -171,7 +173,9 @@ void read_shapes(const Target& to, std::span<const Run> runs) {
     std::map<const ElementType*, std::vector<std::size_t>> kept;
     for (const Run& run : runs) {
         const ElementType& own = *to.elements.blocks[run.id].type;
-        const bool whole = !kept.try_emplace(&own, kept_places(own)).first->second.empty();
+        const auto [places, is_new] = kept.try_emplace(&own);
+        if (is_new) places->second = kept_places(own);
+        const bool whole = !places->second.empty();
         const std::uint8_t linear = linear_types[static_cast<std::size_t>(own.family)],
                            curved = own.dimension() == 3 ? 71 : 69, type = whole ? curved : linear;
         const auto corners = static_cast<std::int64_t>(whole ? own.nodes : mesh::shape_of(type).corners);

@@ -7,11 +7,10 @@ void Walk::refuse_word(std::string expected, std::string found) const {
 }
 
 /// A number in binary form may reach into the end of the section, "$End..." and its name, which has 9 bytes or more.
-template <class Number, class Take>
-Number Walk::step(const char* name, const Take& take) {
-    Number value = 0;
+template <class Take>
+void Walk::step(const char* name, const Take& take) {
     const auto from = [&](auto row) {
-        if (!take(row, value)) {
+        if (!take(row)) {
             at_ = row.at();
             refuse_word(name, word_at(at_, file_->end()));
         }
@@ -19,25 +18,27 @@ Number Walk::step(const char* name, const Take& take) {
         at_ = row.at();
     };
     text_ ? from(Row<true>(*file_, at_)) : from(Row<false>(*file_, at_));
-    return value;
 }
 
 std::int64_t Walk::integer(const char* name) {
-    return step<std::int64_t>(name, [&](auto& row, std::int64_t& value) { return row.integer(value, name); });
+    std::int64_t value = 0;
+    step(name, [&](auto& row) { return row.integer(value, name); });
+    return value;
 }
 
 std::int64_t Walk::size(const char* name) {
     const char* const at = at_;
-    const auto value = step<std::int64_t>(name, [&](auto& row, std::int64_t& tag) { return row.tag(tag, name); });
+    std::int64_t value = 0;
+    step(name, [&](auto& row) { return row.tag(value, name); });
     if (value >= 0) return value;
     at_ = at;
     refuse("bad number", name, std::to_string(value));
 }
 
 double Walk::real(const char* name, bool any) {
-    return step<double>(name, [&](auto& row, double& value) {
-        return row.text && !any ? row.real(value, name) : row.any_real(value, name);
-    });
+    double value = 0;
+    step(name, [&](auto& row) { return row.text && !any ? row.real(value, name) : row.any_real(value, name); });
+    return value;
 }
 
 std::int64_t Walk::count_line(const char* name) {

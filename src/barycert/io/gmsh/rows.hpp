@@ -152,9 +152,9 @@ public:
     void move_to(const char* at) { at_ = at; }
 
 private:
-    /// The number that take(row, number) gets, where a row begins here.
-    template <class Number, class Take>
-    Number step(const char* name, const Take& take);
+    /// take(row), where a row begins here.
+    template <class Take>
+    void step(const char* name, const Take& take);
 
     const MshFile* file_;
     const MshSection* section_;

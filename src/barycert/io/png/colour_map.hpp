@@ -52,7 +52,8 @@ inline constexpr std::array<std::uint32_t, colour_count> colour_table{
     0xefef58, 0xf1ef57, 0xf3f056,
 };
 
-/// Where x lies between the ends of a range: 0 at `low`, 1 at `high`, beyond them less or more. Finite numbers.
+/// Where x lies between the ends of a range: 0 at `low`, 1 at `high`, beyond them less or more. Where both are one
+/// number 0.5 there, 0 below it and 1 above. Finite numbers.
 inline double place_in_range(double x, double low, double high) {
     if (low == high) return x < low ? 0 : x > low ? 1 : 0.5;
     double over = x - low, whole = high - low;

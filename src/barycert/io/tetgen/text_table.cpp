@@ -49,7 +49,8 @@ std::size_t behind_line(const TextTable& table, std::size_t from, SomeBytes& roo
     return size;
 }
 
-/// The row that is the first in these lines, by its id, which may be wrong; `none` if there is no row.
+/// The number of the first row in these lines, by its id, which may be wrong; `none` if there is no row, nothing if the
+/// id is no number, or cannot be one of a row.
 std::optional<std::size_t> first_row_in(const TextTable& table, std::size_t start, std::size_t stop, SomeBytes& room,
                                         std::size_t none) {
     constexpr std::size_t enough = std::size_t{1} << 12, longest = 64;
@@ -77,7 +78,8 @@ bool append_blocks(const TextTable& table, std::vector<Block>& blocks) {
         // Where there are but comments, they can only follow the last row, or a check fails.
         const bool first = blocks.size() == begin;
         const std::optional<std::size_t> row = first_row_in(table, at, next, room, first ? 0 : table.rows);
-        if (!row || *row > table.rows || (first ? *row != 0 : *row < blocks.back().first_row)) return false;
+        if (!row || *row > table.rows) return false;
+        if (first ? *row != 0 : *row < blocks.back().first_row) return false;
         if (!first) blocks.back().last_row = *row;
         blocks.push_back({&table, at, next, *row, table.rows});
         at = next;

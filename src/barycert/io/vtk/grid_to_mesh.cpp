@@ -129,7 +129,7 @@ void check_cells(const RawGrid& grid, const std::string& path) {
     }
 }
 
-/// Cells that stand for others, or for none: bits of VTK's array of that name.
+/// Cells that stand for others, or for none: bits of the array ghost_name.
 constexpr unsigned duplicate_cell = 1, refined_cell = 8, hidden_cell = 32;
 
 /// The numbers of the cells that make the mesh; empty if that is all of them. Ghosts are counted.

@@ -20,6 +20,7 @@ using mesh::VtkCell;
 /// The sections of polygon data. VTK numbers the cells of all sections in this order, whatever the order in the file.
 enum Section : std::size_t { vertices, lines, polygons, strips, section_count };
 
+/// VTK's array of flags, which say which cells or points are ghosts.
 inline constexpr const char* ghost_name = "vtkGhostType";
 
 struct RawArray {

@@ -169,6 +169,16 @@ void tell_contacts(Document& d, const CheckReport& r) {
     if (cut) d.say("--json FILE writes the fractions in full.");
 }
 
+std::string curved_facets_text(const CheckReport& r) {
+    const MapReport& m = *r.maps;
+    std::string text = fmt::format("{} at curved cells, ", m.curved_facets);
+    if (m.split_facets == 0) return text + "the same in both cells";
+    text += fmt::format("of which {} are NOT the same in both cells: up to {:.2g} apart", m.split_facets, m.max_gap);
+    if (!m.split.empty())
+        text += fmt::format(", first cells {} and {}", r.cell_number(m.split[0][0]), r.cell_number(m.split[0][1]));
+    return text;
+}
+
 void tell_whole_mesh(Document& d, const CheckReport& r) {
     const BoundaryReport& b = r.boundary;
     const std::string size = r.dimension == 2 ? "area" : "volume";
@@ -206,13 +216,8 @@ void tell_whole_mesh(Document& d, const CheckReport& r) {
                     joined(m.examples, ", ", [&](Mesh::Index cell) { return std::to_string(r.cell_number(cell)); }) +
                     (m.changing + m.unknown > m.examples.size() ? ", ..." : "");
         d.name("maps", text, m.examples.empty() ? Tone::plain : Tone::strong);
-        text = fmt::format("{} at curved cells, ", m.curved_facets);
-        if (m.split_facets == 0) text += "the same in both cells";
-        if (m.split_facets != 0)
-            text += fmt::format("NOT the same in both cells {}, up to {:.2g} apart", m.split_facets, m.max_gap);
-        if (!m.split.empty())
-            text += fmt::format(", first cells {} and {}", r.cell_number(m.split[0][0]), r.cell_number(m.split[0][1]));
-        if (m.curved_facets != 0) d.name("facets", text, m.split_facets == 0 ? Tone::plain : Tone::strong);
+        if (m.curved_facets != 0)
+            d.name("facets", curved_facets_text(r), m.split_facets == 0 ? Tone::plain : Tone::strong);
     }
     if (r.delaunay) d.add(Named{"Delaunay", delaunay_sentences(r)});
     if (r.conformity) d.add(Named{"PLC", conformity_sentences(r, 40)}, For::terminal);

@@ -134,15 +134,27 @@ Vector Normalised::place(const double* point) const {
     return v;
 }
 
-View broad_view(const std::vector<Vector>& points, bool from_above) {
+namespace {
+
+/// The longest extent to the right; up another one: 0, the least, or 1, the middle one.
+View broad_view(const std::vector<Vector>& points, int up) {
     const Vector sum = std::accumulate(points.begin(), points.end(), Vector(Vector::Zero()));
     const Vector mean = sum / static_cast<double>(std::max<std::size_t>(points.size(), 1));
     Eigen::Matrix3d m = Eigen::Matrix3d::Zero();
     for (const Vector& p : points) m += (p - mean) * (p - mean).transpose();
     // Directions of least, middle and largest extent, orthonormal.
     const Eigen::Matrix3d axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(m).eigenvectors();
-    const Vector right = axes.col(2), up = axes.col(from_above ? 1 : 0);
-    return {right, up, right.cross(up)};
+    return {axes.col(2), axes.col(up), axes.col(2).cross(axes.col(up))};
+}
+
+}  // namespace
+
+View from_above(const std::vector<Vector>& points) {
+    return broad_view(points, 1);
+}
+
+View from_the_side(const std::vector<Vector>& points) {
+    return broad_view(points, 0);
 }
 
 std::array<std::size_t, 2> sharpest_edge(Points t) {

@@ -66,9 +66,10 @@ struct View {
     Vector operator()(const Vector& p) const { return {p.dot(x), p.dot(y), p.dot(z)}; }
 };
 
-/// With the longest extent of the points to the right: from where they are broadest, or from the side, along their
-/// middle extent.
-View broad_view(const std::vector<Vector>& points, bool from_above);
+/// With the longest extent of the points to the right: from where they are broadest.
+View from_above(const std::vector<Vector>& points);
+/// The same along their middle extent.
+View from_the_side(const std::vector<Vector>& points);
 
 /// The edge of a tetrahedron with the smallest dihedral angle, as two corners.
 std::array<std::size_t, 2> sharpest_edge(Points tetrahedron);

@@ -147,20 +147,13 @@ SlabCells::SlabCells(const locate::CellIndex& index, const Raster& raster, std::
             all = {std::min(all.first, r.first), std::max(all.last, r.last)};
         }
         if (all.first > all.last) return;
-        Part& part = parts_[p];
-        part.first_slab = all.first;
-        // First how many of each slab, two entries behind; then, one behind, where the next one goes.
-        part.begin.assign(all.last - all.first + 3, 0);
-        for (const SlabRange& r : ranges) {
-            for (std::size_t s = r.first; s <= r.last; ++s) ++part.begin[s - all.first + 2];
-        }
-        for (std::size_t s = 2; s < part.begin.size(); ++s) part.begin[s] += part.begin[s - 1];
-        part.cells.resize(part.begin.back());
-        for (std::size_t i = 0; i < count; ++i) {
-            for (std::size_t s = ranges[i].first; s <= ranges[i].last; ++s)
-                part.cells[part.begin[s - all.first + 1]++] = static_cast<locate::Place>(first + i);
-        }
-        part.begin.pop_back();
+        const auto each = [&](const auto& add) {
+            for (std::size_t i = 0; i < count; ++i) {
+                for (std::size_t s = ranges[i].first; s <= ranges[i].last; ++s)
+                    add(s - all.first, static_cast<locate::Place>(first + i));
+            }
+        };
+        parts_[p] = {all.first, {all.last - all.first + 1, each}};
     });
 }
 

@@ -1,6 +1,7 @@
 /// Some layers of a grid.
 #pragma once
 
+#include "barycert/base/lists.hpp"
 #include "barycert/grid.hpp"
 #include "barycert/sample/grid/fill_lanes.hpp"
 #include "barycert/sample/points/chunk_sampler.hpp"
@@ -16,18 +17,17 @@ public:
     template <class Work>
     void for_parts(std::size_t slab, Work work) const {
         for (const Part& part : parts_) {
-            if (slab < part.first_slab || slab - part.first_slab + 1 >= part.begin.size()) continue;
-            const std::size_t* const begin = &part.begin[slab - part.first_slab];
-            if (begin[0] != begin[1]) work(std::span(part.cells).subspan(begin[0], begin[1] - begin[0]));
+            if (slab < part.first_slab || slab - part.first_slab >= part.cells.size()) continue;
+            const std::span<const locate::Place> cells = part.cells[slab - part.first_slab];
+            if (!cells.empty()) work(cells);
         }
     }
 
 private:
-    /// Of cells that follow one another: by slab, from the first one on, where its cells begin; one more at the end.
+    /// Of cells that follow one another: those of each slab, from the first one on.
     struct Part {
         std::size_t first_slab = 0;
-        std::vector<std::size_t> begin;
-        std::vector<locate::Place> cells;
+        base::Lists<locate::Place> cells;
     };
     std::vector<Part> parts_;
 };

@@ -106,12 +106,12 @@ HWY_INLINE LaneSums<V> sum_over_cells(D tag, const MeanInput& input, std::size_t
     HWY_ALIGN double high[width] = {}, low[width] = {}, error[width] = {}, value[width] = {};
     for (std::size_t j = 0; j < most; ++j) {
         for (std::size_t l = 0; l < nodes; ++l) {
-            const std::size_t at = input.begin[begin + l] + j;
-            if (at >= input.begin[begin + l + 1]) {
+            const std::span<const Mesh::Index> cells = input.cells[begin + l];
+            if (j >= cells.size()) {
                 high[l] = low[l] = error[l] = value[l] = 0;
                 continue;
             }
-            const auto cell = static_cast<std::size_t>(input.cells[at]);
+            const auto cell = static_cast<std::size_t>(cells[j]);
             const CellVolume& volume = input.volumes[cell];
             high[l] = volume.high;
             low[l] = volume.low;
@@ -165,7 +165,7 @@ std::size_t means_of_nodes(const MeanInput& input, std::size_t first, std::size_
         const std::size_t nodes = count - at < width ? count - at : width, begin = first + at;
         std::size_t most = 0;
         for (std::size_t l = 0; l < nodes; ++l) {
-            const std::size_t cells = input.begin[begin + l + 1] - input.begin[begin + l];
+            const std::size_t cells = input.cells[begin + l].size();
             most = cells > most ? cells : most;
         }
         auto certain = hn::Eq(hn::Zero(tag), hn::Zero(tag));

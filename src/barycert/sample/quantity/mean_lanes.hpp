@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "barycert/base/lists.hpp"
 #include "barycert/mesh.hpp"
 
 namespace barycert::sample {
@@ -16,12 +17,11 @@ struct CellVolume {
 /// The volumes of cells [first, first + count) to out[0] to out[count - 1].
 void volume_lanes(const Mesh& mesh, std::size_t first, std::size_t count, CellVolume* out);
 
-/// What means are made of. The cells of node i are cells[begin[i]] to cells[begin[i + 1] - 1].
+/// What means are made of.
 struct MeanInput {
-    std::span<const std::size_t> begin;
-    std::span<const Mesh::Index> cells;
-    std::span<const CellVolume> volumes;  ///< of all cells
-    std::span<const double> values;       ///< of all cells, `components` each
+    const base::Lists<Mesh::Index>& cells;  ///< of each node
+    std::span<const CellVolume> volumes;    ///< of all cells
+    std::span<const double> values;         ///< of all cells, `components` each
     std::size_t components;
 };
 

@@ -19,13 +19,7 @@ using core::Unit;
 // 2^32 cells.
 static_assert(64 * (Integer::capacity - 2) >= 3 * 2099 + 3 + 2098 + 32);
 
-/// The cells of each node, of shapes all parts: those of node i are cells[begin[i]] to cells[begin[i + 1] - 1].
-struct CellsOfNodes {
-    std::vector<std::size_t> begin;
-    std::vector<Mesh::Index> cells;
-};
-
-/// use(node, cell) for all of these.
+/// use(node, cell) for the cells of each node, of shapes all parts.
 template <class Use>
 void for_cells_of_nodes(const Mesh& mesh, const Use& use) {
     const Mesh::Shapes& shapes = mesh.shapes;
@@ -44,16 +38,6 @@ void for_cells_of_nodes(const Mesh& mesh, const Use& use) {
         for (std::size_t i = 0; i < list.size(); ++i)
             use(static_cast<std::size_t>(list[i]), static_cast<Mesh::Index>(i / per_cell));
     }
-}
-
-CellsOfNodes cells_of_nodes(const Mesh& mesh) {
-    CellsOfNodes of{std::vector<std::size_t>(mesh.point_count() + 2, 0), {}};
-    for_cells_of_nodes(mesh, [&](std::size_t node, Mesh::Index) { ++of.begin[node + 2]; });
-    for (std::size_t i = 2; i < of.begin.size(); ++i) of.begin[i] += of.begin[i - 1];
-    of.cells.resize(of.begin.back());
-    // begin[i + 1] is where the next cell of node i goes; in the end that is where those of node i + 1 begin.
-    for_cells_of_nodes(mesh, [&](std::size_t node, Mesh::Index cell) { of.cells[of.begin[node + 1]++] = cell; });
-    return of;
 }
 
 /// The mean at one node, in integers: where the filter is not certain. Kept from node to node, for its memory.
@@ -138,14 +122,14 @@ private:
 Field nodal_mean(const Mesh& mesh, const Field& of_cells) {
     const auto components = static_cast<std::size_t>(of_cells.components);
     Field field{{}, of_cells.components, std::vector<double>(components * mesh.point_count())};
-    const CellsOfNodes of = cells_of_nodes(mesh);
+    const base::Lists<Mesh::Index> cells(mesh.point_count(), [&](const auto& add) { for_cells_of_nodes(mesh, add); });
     constexpr std::size_t cells_of_task = 4096, nodes_of_task = 512;
     std::vector<CellVolume> volumes(mesh.cell_count());
     base::parallel_for(volumes.size(), cells_of_task, [&](std::size_t begin, std::size_t end) {
         const ExactEnvironment environment;  // of a thread that may be the caller's
         volume_lanes(mesh, begin, end - begin, volumes.data() + begin);
     });
-    const MeanInput input{of.begin, of.cells, volumes, of_cells.data, components};
+    const MeanInput input{cells, volumes, of_cells.data, components};
     base::parallel_for(mesh.point_count(), nodes_of_task, [&](std::size_t begin, std::size_t end) {
         const ExactEnvironment environment;
         std::vector<std::uint32_t> undecided(end - begin);
@@ -155,8 +139,7 @@ Field nodal_mean(const Mesh& mesh, const Field& of_cells) {
         MeanAtNode mean(mesh, of_cells);
         for (const std::uint32_t i : undecided) {
             const std::size_t node = begin + i;
-            mean(std::span(of.cells).subspan(of.begin[node], of.begin[node + 1] - of.begin[node]),
-                 out + components * i);
+            mean(cells[node], out + components * i);
         }
     });
     return field;
