@@ -78,7 +78,7 @@ TEST_F(Packed, StandardInput) {
     EXPECT_NE(cut.err.find("cannot be unpacked"), std::string::npos) << cut.err;
     EXPECT_EQ(stream.code, 2);
     EXPECT_NE(stream.err.find("gunzip"), std::string::npos) << stream.err;
-    shell("gzip -k p.csv.gz 2> gzip.log || gzip < p.csv.gz > p.csv.gz.gz; printf '\\3757zXZ\\000' > p.xz");
+    shell("gzip < p.csv.gz > p.csv.gz.gz; printf '\\3757zXZ\\000' > p.xz");
     for (const char* packed : {"p.csv.gz.gz", "p.xz"}) {
         const Ended refused = shell(std::string("barycert sample m --points - --output - < ") + packed);
         EXPECT_EQ(refused.code, 2) << packed;

@@ -103,18 +103,15 @@ TEST(NodalMean, TheFilterDecidesNearlyAll) {
     base::Random random(13);
     std::vector<sample::CellVolume> volumes(mesh.cell_count());
     sample::volume_lanes(mesh, 0, volumes.size(), volumes.data());
-    std::vector<std::size_t> begin(mesh.point_count() + 1, 0);
     std::vector<double> values;
     for (std::size_t cell = 0; cell < mesh.cell_count(); ++cell) values.push_back(random.uniform(1, 2));
-    for (const Mesh::Index node : mesh.cells) ++begin[static_cast<std::size_t>(node) + 1];
-    for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
-    std::vector<Mesh::Index> cells(mesh.cells.size());
-    std::vector<std::size_t> next = begin;
-    for (std::size_t i = 0; i < mesh.cells.size(); ++i)
-        cells[next[static_cast<std::size_t>(mesh.cells[i])]++] = static_cast<Mesh::Index>(i / 4);
+    const base::Lists<Mesh::Index> cells(mesh.point_count(), [&](auto add) {
+        for (std::size_t i = 0; i < mesh.cells.size(); ++i)
+            add(static_cast<std::size_t>(mesh.cells[i]), static_cast<Mesh::Index>(i / 4));
+    });
     std::vector<double> means(mesh.point_count());
     std::vector<std::uint32_t> undecided(mesh.point_count());
-    const sample::MeanInput input{begin, cells, volumes, values, 1};
+    const sample::MeanInput input{cells, volumes, values, 1};
     undecided.resize(sample::mean_lanes(input, 0, mesh.point_count(), means.data(), undecided.data()));
     // The mean over two cells of the same volume may lie halfway between doubles.
     EXPECT_LE(undecided.size(), mesh.point_count() / 1000);
