@@ -43,7 +43,7 @@ Asked ask_in_process(const Kernel& kernel, std::span<const Case> cases, std::spa
 
 Asked ask_host(const Kernel& kernel, std::span<const Case> cases, std::span<Statement> statements, bool timed) {
     using kernels::Host;
-    const Asked asked = kernel.host->run(cases, statements, timed ? Host::Asking::timed : Host::Asking::usual);
+    Asked asked = kernel.host->run(cases, statements, timed ? Host::Asking::timed : Host::Asking::usual);
     const bool interpolates = kernel.host->description().interpolates;
     for (std::size_t i = 0; i < cases.size(); ++i) {
         Statement& s = statements[i];

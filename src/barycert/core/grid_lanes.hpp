@@ -1,6 +1,8 @@
 /// Cells of a grid along axes that hold points, and values there, many at a time.
 #pragma once
 
+#include <vector>
+
 #include "barycert/simplex.hpp"
 
 namespace barycert::core {

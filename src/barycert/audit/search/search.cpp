@@ -46,7 +46,7 @@ struct Harvest {
             if (h.shown < 0) continue;
             ++cases[r];
             if (!cost) cost = plain_cost(c);
-            if (worst[r].empty() || h > worst[r].front().height) worst[r] = {{c, *cost, h, e}};
+            if (worst[r].empty() || worst[r].front().height < h) worst[r] = {{c, *cost, h, e}};
             if (r < finding_count && *cost < plain[r].cost) plain[r] = {c, *cost, h, e};
         }
     }
@@ -54,7 +54,7 @@ struct Harvest {
     /// Equal ones stay in the order of their coming.
     void include(std::size_t r, const Met& m) {
         std::vector<Met>& list = worst[r];
-        const auto at = std::ranges::find_if(list, [&](const Met& x) { return m.height > x.height; });
+        const auto at = std::ranges::find_if(list, [&](const Met& x) { return x.height < m.height; });
         list.insert(at, m);
         if (list.size() > kept) list.pop_back();
     }
@@ -121,14 +121,14 @@ public:
                 wander(next, random, values);
             }
             if (!admissible(next, range_) || ask(next) == nullptr) continue;
-            const auto order = height(reason, answer) <=> height(reason, evaluation);
-            if (order < 0 && waited < patience) {
+            const Height next_height = height(reason, answer), height_here = height(reason, evaluation);
+            if (next_height < height_here && waited < patience) {
                 ++waited;
                 continue;
             }
             here = next;
             evaluation = answer;
-            if (order != 0) waited = 0;
+            if (next_height != height_here) waited = 0;
         }
         return h;
     }
