@@ -127,7 +127,7 @@ error.)",
     o.text("--onto", job.onto, "Sample at the nodes of this mesh", "MESH2");
     o.text("--output", job.output, "Grids: .vti .npy .csv .png; with --onto: .vtu .vtk .msh .node .csv .npy")
         ->required();
-    o.range(job.range, "Picture: ");
+    o.figure(job.figure, "Picture: ");
     add_sampling_options(o, job, a.reports);
 }
 

@@ -11,6 +11,7 @@
 #include "barycert/draw/files.hpp"
 #include "barycert/draw/view.hpp"
 #include "barycert/environment.hpp"
+#include "barycert/io/png/png_file.hpp"
 
 namespace barycert {
 namespace draw {
@@ -63,6 +64,21 @@ Status check_arrows(const FigureArrows& a, std::size_t d) {
     return Done{};
 }
 
+Status check_grid(const FigureGrid& g) {
+    if (g.width < 1 || g.height < 1 || std::max(g.width, g.height) > io::longest_png_side)
+        return refusal("a grid of that size cannot be a picture", fmt::format("1 to {} values a side", io::longest_png_side),
+                       fmt::format("{} by {}", g.width, g.height));
+    if (g.values.size() != g.width * g.height || (!g.valid.empty() && g.valid.size() != g.values.size()))
+        return refusal("the arrays of the grid do not fit together", fmt::format("{} by {} values", g.width, g.height),
+                       fmt::format("{} values and {} marks of which are valid", g.values.size(), g.valid.size()));
+    for (std::size_t k = 0; k < 2; ++k) {
+        if (!(g.spacing[k] > 0) || !std::isfinite(g.spacing[k]) || !std::isfinite(g.origin[k]))
+            return refusal("the place of a grid", "a finite origin, and finite spacings above 0",
+                           base::shortest(g.origin[k]) + " and " + base::shortest(g.spacing[k]));
+    }
+    return Done{};
+}
+
 Status check(const Figure& f) {
     const FigureOptions& o = f.options;
     if (f.dimension != 2 && f.dimension != 3) return refusal("the dimension of a figure", "2 or 3", std::to_string(f.dimension));
@@ -75,9 +91,15 @@ Status check(const Figure& f) {
     }
     for (const FigureArrows& a : f.arrows)
         if (Status good = check_arrows(a, d); !good) return good;
-    if (Status good = check_raster_size(o.size); !good) return good;
+    if (f.grid && (f.dimension != 2 || !f.surfaces.empty() || !f.lines.empty() || !f.arrows.empty()))
+        return refusal("a figure of a grid", "one in the plane, of nothing else", "more");
+    if (f.grid)
+        if (Status good = check_grid(*f.grid); !good) return good;
+    if (Status good = check_raster_size(o.window.value_or(o.size)); !good) return good;
     if (o.samples < 1 || o.samples > max_samples)
         return refusal("samples a pixel, across and up", fmt::format("1 to {}", max_samples), std::to_string(o.samples));
+    if (!(o.scale >= 0) || !std::isfinite(o.scale))
+        return refusal("pixels for a unit", "a finite number above 0", base::shortest(o.scale));
     if (!(o.resolution > 0 && o.resolution <= 32))
         return refusal("the resolution", "above 0, at most 32", base::shortest(o.resolution));
     for (const double angle : {o.camera.azimuth, o.camera.elevation}) {
@@ -94,12 +116,19 @@ Status check(const Figure& f) {
 
 /// Of the window that a figure may fill; beside a box its numbers have room.
 double part_of(const Figure& f) {
+    if (f.dimension == 2 && (f.options.window || f.options.scale > 0)) return 1;
     if (f.options.axes == Axes::box && f.dimension == 3) return 0.76;
     return f.dimension == 2 && f.options.axes != Axes::none ? 0.97 : 0.94;
 }
 
+Ground ground_of(const FigureOptions& o) {
+    const auto& [r, g, b, opacity] = o.background;
+    constexpr int half = 128 * 1000;
+    return {o.background, opacity != 0 && 299 * r + 587 * g + 114 * b < half};
+}
+
 Rgba ink(const FigureOptions& o) {
-    return look_of("axis", o.dark).colour;
+    return look_of("axis", ground_of(o).dark).colour;
 }
 
 class Layout {
@@ -117,41 +146,90 @@ public:
         const bool plane = f_.dimension == 2 && o_.axes != Axes::none;
         double left = plane ? 68 : 0, right = plane ? 16 : 0, top = plane ? 16 : 0, bottom = plane ? 54 : 0;
         if (!o_.title.empty()) top += 34;
-        ColourBar bar{.scale = *scale, .title = o_.bar_title, .below = counts_.below != 0, .above = counts_.above != 0};
+        ColourBar bar{.scale = *scale, .title = o_.unit.empty() ? o_.bar_title : o_.bar_title + " (" + o_.unit + ")", .below = counts_.below != 0, .above = counts_.above != 0};
         const bool with_bar = o_.bar && !std::isnan(scale->low);
         bar.none = with_bar && has_none();
         if (with_bar) right = std::max(right, bar.width());
-        const double wide = picture_.width - left - right, tall = picture_.height - top - bottom;
+        std::optional<GridImage> grid;
+        if (f_.grid) grid.emplace(*f_.grid, *scale);
+        if (grid) window_of({grid->width(), grid->height()}, left + right, top + bottom, with_bar);
+        if (const auto given = given_window(); !grid && given)
+            window_of({static_cast<std::size_t>(given->width), static_cast<std::size_t>(given->height)}, left + right,
+                      top + bottom, with_bar);
+        double wide = picture_.width - left - right, tall = picture_.height - top - bottom;
         constexpr double least = 16;
-        if (wide < least || tall < least)
+        if (!window_ && (wide < least || tall < least))
             return file_error({}, "there is no room beside bar and axes",
                               fmt::format("more than {:.0f} by {:.0f} pixels", left + right + least, top + bottom + least),
                               fmt::format("{} by {}", o_.size.width, o_.size.height), "choose a larger size");
+        const double bar_top = top, bar_room = tall;
+        if (window_) wide = window_->width, tall = window_->height;
         // Whole pixels of the file.
         const auto pixels = [&](double x) { return static_cast<std::int32_t>(std::lround(x * resolution_)); };
         const double x0 = std::round(left * resolution_) / resolution_, y0 = std::round(top * resolution_) / resolution_;
-        const RasterSize window{std::max(1, pixels(wide)), std::max(1, pixels(tall))};
-        const View view(f_, window, part_of(f_));
-        std::vector<FigureLines> extra;
-        if (f_.dimension == 3 && o_.axes == Axes::box) extra.push_back(box_lines(view));
-        auto image = std::make_shared<Image>(view.draw(*scale, extra, counts_));
-        picture_.place({x0, y0}, window.width / resolution_, window.height / resolution_, std::move(image));
         origin_ = {x0, y0};
-        if (plane) draw_plane_axes(view, {x0, y0}, {x0 + wide, y0 + tall});
-        if (!extra.empty()) draw_box_numbers(view);
-        const bool triad = o_.axes == Axes::triad || o_.axes == Axes::automatic;
-        if (f_.dimension == 3 && triad) draw_triad(view, {x0, y0 + tall});
+        if (grid) {
+            Result<Image> image = blank_image(window_->width, window_->height, {});
+            if (!image) return image.error();
+            for (std::int32_t j = 0; j < image->height; ++j)
+                grid->row(static_cast<std::size_t>(image->height - 1 - j), &image->data[image->offset(0, j)]);
+            picture_.place({x0, y0}, wide, tall, std::make_shared<Image>(std::move(*image)), "pixels");
+            if (plane) draw_plane_axes(grid_ends(), {x0, y0}, {x0 + wide, y0 + tall});
+        } else {
+            const RasterSize window{std::max(1, pixels(wide)), std::max(1, pixels(tall))};
+            const View view(f_, window, part_of(f_));
+            std::vector<FigureLines> extra;
+            if (f_.dimension == 3 && o_.axes == Axes::box) extra.push_back(box_lines(view));
+            auto image = std::make_shared<Image>(view.draw(*scale, extra, counts_));
+            picture_.place({x0, y0}, window.width / resolution_, window.height / resolution_, std::move(image));
+            if (plane) draw_plane_axes({view.seen(0), view.seen(1)}, {x0, y0}, {x0 + wide, y0 + tall});
+            if (!extra.empty()) draw_box_numbers(view);
+            const bool triad = o_.axes == Axes::triad || o_.axes == Axes::automatic;
+            if (f_.dimension == 3 && triad) draw_triad(view, {x0, y0 + tall});
+        }
         if (!o_.title.empty()) picture_.text({x0 + wide / 2, 24}, o_.title, "head m");
-        if (with_bar) {
-            const double room = std::min(tall - 24, std::max(120.0, 0.9 * tall));
-            if (tall >= 60) bar.draw(picture_, {picture_.width - bar.width(), top + (tall - room) / 2}, room);
+        if (with_bar && bar_room >= 60) {
+            const double room = std::min(bar_room, std::max(120.0, 0.92 * bar_room));
+            bar.draw(picture_, {picture_.width - bar.width(), bar_top + (bar_room - room) / 2}, room);
         }
         return std::move(picture_);
     }
 
 private:
+    /// The picture is as large as this window and what is beside it; a bar has some height.
+    void window_of(std::array<std::size_t, 2> size, double beside, double above, bool with_bar) {
+        constexpr double least = 120;
+        const auto wide = static_cast<double>(size[0]), tall = static_cast<double>(size[1]);
+        window_ = RasterSize{static_cast<std::int32_t>(size[0]), static_cast<std::int32_t>(size[1])};
+        picture_.width = std::ceil(wide + beside);
+        picture_.height = std::ceil(std::max(tall, with_bar ? least : 0) + above);
+    }
+
+    std::optional<RasterSize> given_window() const {
+        if (f_.dimension != 2 || !(o_.scale > 0)) return o_.window;
+        const Space space(f_);
+        std::array<std::int32_t, 2> sides{};
+        for (std::size_t k = 0; k < 2; ++k) {
+            const double side = space.box[k].empty() ? 0 : 2 * space.box[k].half() * o_.scale;
+            sides[k] = static_cast<std::int32_t>(std::clamp(std::round(side), 1.0, 1.0 * max_raster_side));
+        }
+        return RasterSize{sides[0], sides[1]};
+    }
+
+    /// From the lower side of the first pixel to the upper one of the last.
+    std::array<std::array<double, 2>, 2> grid_ends() const {
+        std::array<std::array<double, 2>, 2> ends;
+        for (std::size_t k = 0; k < 2; ++k) {
+            const double count = static_cast<double>(k == 0 ? f_.grid->width : f_.grid->height);
+            ends[k][0] = f_.grid->origin[k] - 0.5 * f_.grid->spacing[k];
+            ends[k][1] = ends[k][0] + count * f_.grid->spacing[k];
+        }
+        return ends;
+    }
+
     /// A value that is drawn is not finite, or has no logarithm.
     bool has_none() const {
+        if (f_.grid) return false;  // nothing is drawn there
         const auto none = [&](double x) { return !std::isfinite(x) || (o_.log && !(x > 0)); };
         return std::ranges::any_of(f_.surfaces, [&](const FigureSurface& s) {
             return std::ranges::any_of(s.triangle_values, none) ||
@@ -161,11 +239,15 @@ private:
         });
     }
 
-    void draw_plane_axes(const View& view, Pixel from, Pixel to) {
+    void draw_plane_axes(const std::array<std::array<double, 2>, 2>& ends, Pixel from, Pixel to) {
         const auto axis = [&](std::size_t k, double begin, double end, double room) {
-            const auto [low, high] = view.seen(k);
-            Axis a{.low = low, .high = high, .from = begin, .to = end, .title = k == 0 ? "x" : "y", .grid = false};
-            a.set(round_ticks(low, high, std::max(2, static_cast<int>((std::fabs(end - begin)) / room))));
+            const auto [low, high] = ends[k];
+            const bool turned = o_.axis_names[k].starts_with('-');
+            Axis a{.low = low, .high = high, .from = begin, .to = end, .title = o_.axis_names[k].substr(turned ? 1 : 0),
+                   .grid = false};
+            const int most = std::max(2, static_cast<int>(std::fabs(end - begin) / room));
+            a.set(turned ? round_ticks(-high, -low, most) : round_ticks(low, high, most));
+            for (Tick& t : a.ticks) t.at = turned ? -t.at : t.at;
             return a;
         };
         constexpr double across = 80, up = 50;
@@ -257,6 +339,7 @@ private:
     Picture picture_;
     double resolution_;
     FigureCounts& counts_;
+    std::optional<RasterSize> window_;
     Pixel origin_;
     std::vector<double> corners_;
     std::vector<std::int32_t> edges_;
@@ -270,8 +353,21 @@ Result<Picture> laid_out(const Figure& figure, double resolution, FigureCounts* 
     return picture;
 }
 
-Ground ground_of(const FigureOptions& o) {
-    return {o.background, o.dark};
+/// A grid alone, in the memory of a row.
+Status write_rows(const std::string& path, const Figure& figure, FigureCounts* counts) {
+    if (Status good = check(figure); !good) return good;
+    FigureCounts told;
+    const Result<ColourScale> scale = scale_of(figure, told);
+    if (!scale) return scale.error();
+    const GridImage image(*figure.grid, *scale);
+    if (std::max(image.width(), image.height()) > io::longest_png_side)
+        return file_error(path, "a grid of that aspect cannot be a picture",
+                          fmt::format("at most {} pixels a side", io::longest_png_side),
+                          fmt::format("{} by {}", image.width(), image.height()), "choose spacings that differ less");
+    const auto row = [&](std::size_t r, std::uint8_t* pixels) { image.row(r, pixels); };
+    if (Status written = io::write_png_rows(path, image.width(), image.height(), row); !written) return written;
+    if (counts != nullptr) *counts = told;
+    return Done{};
 }
 
 }  // namespace
@@ -312,6 +408,9 @@ Status write_figure(const std::string& path, const Figure& figure, FigureCounts*
     constexpr double dots = 300 / 96.0;
     const bool pixels = path.ends_with(".png") || path.ends_with(".PNG");
     const double resolution = pixels ? figure.options.resolution : dots;
+    const FigureOptions& o = figure.options;
+    if (pixels && figure.grid && !o.bar && o.axes == Axes::none && o.title.empty())
+        return draw::write_rows(path, figure, counts);
     const Result<draw::Picture> picture = draw::laid_out(figure, resolution, counts);
     if (!picture) return picture.error();
     return draw::write_picture(path, *picture, draw::ground_of(figure.options), resolution);

@@ -103,14 +103,14 @@ public:
             set(ground.colour);
             cairo_paint(to_.get());
         }
-        for (const Item& item : picture.items) add(item);
+        for (const PictureItem& item : picture.items) add(item);
     }
 
 private:
     void set(Rgba c) { cairo_set_source_rgba(to_.get(), c[0] / 255.0, c[1] / 255.0, c[2] / 255.0, c[3] / 255.0); }
 
-    void add(const Item& item) {
-        using Kind = Item::Kind;
+    void add(const PictureItem& item) {
+        using Kind = PictureItem::Kind;
         const Look look = look_of(item.style, ground_.dark);
         set(item.colour.value_or(look.colour));
         switch (item.kind) {
@@ -150,7 +150,7 @@ private:
         cairo_stroke(to_.get());
     }
 
-    void write(const Item& item, const Look& look) {
+    void write(const PictureItem& item, const Look& look) {
         const double width = text_width(item.text, look.size);
         const double back = look.anchor == 'm' ? width / 2 : look.anchor == 'e' ? width : 0;
         cairo_save(to_.get());
@@ -163,7 +163,7 @@ private:
     }
 
     /// Pixel by pixel where it has as many as the surface there.
-    void place(const Item& item) {
+    void place(const PictureItem& item) {
         const Image& image = *item.image;
         std::vector<std::uint32_t> pixels = multiplied(image);
         const Owned<cairo_surface_t, cairo_surface_destroy> surface(cairo_image_surface_create_for_data(
@@ -174,7 +174,8 @@ private:
         cairo_translate(to_.get(), item.at.x, item.at.y);
         cairo_scale(to_.get(), wide, tall);
         cairo_set_source_surface(to_.get(), surface.get(), 0, 0);
-        const bool same = std::fabs(wide * scale_ - 1) < 1e-9 && std::fabs(tall * scale_ - 1) < 1e-9;
+        const bool same = item.style == "pixels" ||
+                          (std::fabs(wide * scale_ - 1) < 1e-9 && std::fabs(tall * scale_ - 1) < 1e-9);
         cairo_pattern_set_filter(cairo_get_source(to_.get()), same ? CAIRO_FILTER_NEAREST : CAIRO_FILTER_GOOD);
         cairo_paint(to_.get());
         cairo_restore(to_.get());

@@ -25,7 +25,7 @@ struct Pixel {
 enum class Mark : unsigned char { circle, square, diamond, up, down, cross };
 
 /// What is drawn, by one look. Which members count depends on `kind`.
-struct Item {
+struct PictureItem {
     enum class Kind : unsigned char { lines, area, dots, bar, circle, text, image };
     Kind kind;
     std::string style = {};  ///< classes; "m" and "e" are the anchors middle and end of a text
@@ -45,41 +45,42 @@ public:
 
     double width, height;
     std::string title;
-    std::vector<Item> items = {};
+    std::vector<PictureItem> items = {};
 
     void line(Pixel from, Pixel to, std::string style) { path({from, to}, std::move(style)); }
     void path(std::vector<Pixel> corners, std::string style) {
-        if (corners.size() > 1) items.push_back({Item::Kind::lines, std::move(style), {std::move(corners)}});
+        if (corners.size() > 1) items.push_back({PictureItem::Kind::lines, std::move(style), {std::move(corners)}});
     }
     /// Many in one item; and dots likewise.
     void lines(const std::vector<std::pair<Pixel, Pixel>>& segments, std::string style) {
         if (segments.empty()) return;
-        Item& item = items.emplace_back(Item{Item::Kind::lines, std::move(style)});
+        PictureItem& item = items.emplace_back(PictureItem{PictureItem::Kind::lines, std::move(style)});
         for (const auto& [a, b] : segments) item.lines.push_back({a, b});
     }
     void dots(std::vector<Pixel> at, std::string style) {
-        if (!at.empty()) items.push_back({Item::Kind::dots, std::move(style), {std::move(at)}});
+        if (!at.empty()) items.push_back({PictureItem::Kind::dots, std::move(style), {std::move(at)}});
     }
     void area(std::vector<Pixel> corners, std::string style, std::optional<Rgba> colour = {}) {
-        items.push_back({.kind = Item::Kind::area, .style = std::move(style), .lines = {std::move(corners)}});
+        items.push_back({.kind = PictureItem::Kind::area, .style = std::move(style), .lines = {std::move(corners)}});
         items.back().colour = colour;
     }
     void bar(Pixel corner, double wide, double tall, std::string style, std::string tip = {},
              std::optional<Rgba> colour = {}) {
-        items.push_back({.kind = Item::Kind::bar, .style = std::move(style), .at = corner, .width = wide,
+        items.push_back({.kind = PictureItem::Kind::bar, .style = std::move(style), .at = corner, .width = wide,
                          .height = tall, .text = std::move(tip), .colour = colour});
     }
     void circle(Pixel at, double radius, std::string style, std::string tip = {}) {
-        items.push_back({.kind = Item::Kind::circle, .style = std::move(style), .at = at, .width = radius,
+        items.push_back({.kind = PictureItem::Kind::circle, .style = std::move(style), .at = at, .width = radius,
                          .text = std::move(tip)});
     }
     void mark(Pixel at, Mark mark, double r, const std::string& style);
     void text(Pixel at, std::string text, std::string style, bool upwards = false) {
-        items.push_back({.kind = Item::Kind::text, .style = std::move(style), .at = at, .text = std::move(text),
+        items.push_back({.kind = PictureItem::Kind::text, .style = std::move(style), .at = at, .text = std::move(text),
                          .upwards = upwards});
     }
-    void place(Pixel corner, double wide, double tall, std::shared_ptr<const Image> image) {
-        items.push_back({.kind = Item::Kind::image, .at = corner, .width = wide, .height = tall,
+    /// "pixels": they stay squares, however large.
+    void place(Pixel corner, double wide, double tall, std::shared_ptr<const Image> image, std::string style = {}) {
+        items.push_back({.kind = PictureItem::Kind::image, .style = std::move(style), .at = corner, .width = wide, .height = tall,
                          .image = std::move(image)});
     }
 };

@@ -33,7 +33,7 @@ public:
         if (ground != nullptr && ground->colour[3] != 0)
             out_ += fmt::format("<rect width=\"{:.0f}\" height=\"{:.0f}\" fill=\"{}\"/>\n", picture.width,
                                 picture.height, colour_text(ground->colour));
-        for (const Item& item : picture.items) add(item);
+        for (const PictureItem& item : picture.items) add(item);
         out_ += "</svg>\n";
     }
 
@@ -43,7 +43,7 @@ private:
     enum class Paint : unsigned char { stroke, fill, text };
 
     /// The attributes of its look.
-    std::string look(const Item& item, Paint paint) const {
+    std::string look(const PictureItem& item, Paint paint) const {
         if (ground_ == nullptr) {
             const std::string own = item.colour ? fmt::format(" fill=\"{}\"", colour_text(*item.colour)) : "";
             return item.style.empty() ? own : fmt::format(" class=\"{}\"{}", item.style, own);
@@ -60,16 +60,16 @@ private:
         return fmt::format(" fill=\"none\" stroke=\"{}\" stroke-width=\"{:g}\" stroke-linejoin=\"round\"{}{}",
                            colour_text(colour), l.line,
                            l.on > 0 ? fmt::format(" stroke-dasharray=\"{:g} {:g}\"", l.on, l.off) : "",
-                           item.kind == Item::Kind::dots ? " stroke-linecap=\"round\"" : "");
+                           item.kind == PictureItem::Kind::dots ? " stroke-linecap=\"round\"" : "");
     }
     static std::string opacity(Rgba c) { return c[3] == 255 ? "" : fmt::format(" fill-opacity=\"{:.3g}\"", c[3] / 255.0); }
 
-    static std::string tip(const Item& item) {
+    static std::string tip(const PictureItem& item) {
         return item.text.empty() ? "" : fmt::format("<title>{}</title>", xml_escaped(item.text));
     }
 
-    void add(const Item& item) {
-        using Kind = Item::Kind;
+    void add(const PictureItem& item) {
+        using Kind = PictureItem::Kind;
         switch (item.kind) {
             case Kind::lines:
             case Kind::area:
@@ -91,15 +91,16 @@ private:
                 break;
             case Kind::image:
                 out_ += fmt::format(
-                    "<image x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" preserveAspectRatio=\"none\" "
+                    "<image x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" preserveAspectRatio=\"none\"{} "
                     "href=\"{}\"/>\n",
-                    item.at.x, item.at.y, item.width, item.height, data_uri("image/png", png_text(*item.image)));
+                    item.at.x, item.at.y, item.width, item.height,
+                    item.style == "pixels" ? " style=\"image-rendering:pixelated\"" : "", data_uri("image/png", png_text(*item.image)));
                 break;
         }
     }
 
-    void add_path(const Item& item) {
-        const bool dots = item.kind == Item::Kind::dots, closed = item.kind == Item::Kind::area;
+    void add_path(const PictureItem& item) {
+        const bool dots = item.kind == PictureItem::Kind::dots, closed = item.kind == PictureItem::Kind::area;
         const std::string path = base::joined(item.lines, "", [&](const std::vector<Pixel>& line) {
             if (dots) return base::joined(line, "", [](Pixel p) { return fmt::format("M{:.1f} {:.1f}h0", p.x, p.y); });
             return "M" + base::joined(line, "L", [](Pixel p) { return fmt::format("{:.1f} {:.1f}", p.x, p.y); }) +

@@ -6,6 +6,7 @@
 
 #include "barycert/base/arena.hpp"
 #include "barycert/base/strict_math.hpp"
+#include "barycert/base/text.hpp"
 #include "barycert/base/vectors.hpp"
 #include "barycert/raster/colour_bytes.hpp"
 
@@ -338,6 +339,8 @@ Result<ColourScale> scale_of(const Figure& figure, FigureCounts& counts) {
         }
         for (const FigureArrows& a : figure.arrows)
             for (const double x : a.values) f(x);
+        for (std::size_t i = 0; figure.grid && i < figure.grid->values.size(); ++i)
+            if (is_drawn(*figure.grid, false, i)) f(figure.grid->values[i]);
     };
     const auto counts_for = [&](double x) { return std::isfinite(x) && (!o.log || x > 0); };
     Range range;
@@ -360,9 +363,15 @@ Result<ColourScale> scale_of(const Figure& figure, FigureCounts& counts) {
     scale.low = counts.low = range.empty() ? nan : range.low + 0.0;
     scale.high = counts.high = range.empty() ? nan : range.high + 0.0;
     for_values([&](double x) {
-        counts.below += counts_for(x) && x < scale.low ? 1 : 0;
-        counts.above += counts_for(x) && x > scale.high ? 1 : 0;
+        if (counts_for(x) && x < scale.low) ++counts.below;
+        if (counts_for(x) && x > scale.high) ++counts.above;
     });
+    if (!figure.grid) return scale;
+    GridCounts& of_grid = counts.grid = {.below = counts.below, .above = counts.above, .low = scale.low, .high = scale.high};
+    for (std::size_t i = 0; i < figure.grid->values.size(); ++i) {
+        const bool valid = figure.grid->valid.empty() || figure.grid->valid[i] != 0;
+        ++(is_drawn(*figure.grid, o.log, i) ? of_grid.drawn : valid ? of_grid.not_finite : of_grid.outside);
+    }
     return scale;
 }
 

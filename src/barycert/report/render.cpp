@@ -112,14 +112,14 @@ void tell_notes(Document& d, const ContourReport& s) {
 }
 
 std::string pixels_text(const ContourReport& s) {
-    const SliceCounts& n = s.picture;
+    const GridCounts& n = s.drawn.grid;
     const std::string text =
         fmt::format("{} x {} pixels of {:.6g}", s.pixels->width, s.pixels->height, s.pixels->pixel);
     if (std::isnan(n.low)) return text + "; nothing drawn: no point has a finite value";
     const std::uint64_t clear = n.outside + n.not_finite;
     return text + "; colours from " + range_text(n.low, n.high) +
            (n.below + n.above == 0 ? "" : fmt::format("; {} below and {} above", n.below, n.above)) +
-           (clear == 0 ? "" : fmt::format("; {} without a value, transparent", clear));
+           (clear == 0 ? "" : fmt::format("; {} without a value", clear));
 }
 
 std::string view_text(const ContourReport& s) {
@@ -149,7 +149,7 @@ Document contour_document(const ContourReport& s, const Environment& environment
                                         base::shortest(s.plane->offset)));
     if (s.pixels) {
         const PixelGrid& p = *s.pixels;
-        const SliceCounts& n = s.picture;
+        const GridCounts& n = s.drawn.grid;
         d.figure("picture",
                  record(MEMBERS(p, width, height, pixel, origin), "right", p.step_right, "up", p.step_up,
                         MEMBERS(n, low, high, drawn, below, above, outside, not_finite)),

@@ -4,7 +4,7 @@
 #include "barycert/report/check/check_pictures.hpp"
 #include "barycert/report/check/check_words.hpp"
 #include "barycert/report/common/document.hpp"
-#include "barycert/report/common/picture.hpp"
+#include "barycert/draw/picture.hpp"
 
 namespace barycert {
 
