@@ -1,5 +1,5 @@
-/// Pictures for people: surfaces, lines and arrows in colours of values, seen by a camera, with axes, a colour bar and a
-/// title, as .png, .svg or .pdf.
+/// Pictures for people: surfaces, lines and arrows in colours of values, seen by a camera, with axes, a colour bar and
+/// a title, as .png, .svg or .pdf.
 ///
 /// A surface is drawn by scene.hpp's rules. Lines are as wide everywhere, and hidden where a surface is before them.
 /// Surfaces in space are lit: their colour is multiplied by 0.35 to 1; light falls from the upper left behind the
@@ -62,23 +62,23 @@ struct FigureOptions {
     RasterSize size{800, 600};  ///< of the whole picture; of files of vectors in 96ths of an inch
     /// Of what is seen in the plane, without axes, bar and title: then it is filled, and the whole is larger.
     std::optional<RasterSize> window = {};
-    double scale = 0;           ///< pixels for a unit of the plane, in place of `window`; 0: not given
-    double resolution = 1;      ///< pixels of a .png for one of `size`
-    int samples = 4;            ///< see Scene
+    double scale = 0;                     ///< pixels for a unit of the plane, in place of `window`; 0: not given
+    double resolution = 1;                ///< pixels of a .png for one of `size`
+    int samples = 4;                      ///< see Scene
     Rgba background{255, 255, 255, 255};  ///< where it is dark, text and axes are light; opacity 0: none
     FigureCamera camera = {};
-    Axes axes = Axes::automatic;  ///< in the plane axes, in space a triad
+    Axes axes = Axes::automatic;                      ///< in the plane axes, in space a triad
     std::array<std::string, 2> axis_names{"x", "y"};  ///< in the plane; "-x": its numbers are those of x, negated
     std::string title = {};
 
     // Colours of values.
-    std::string colour_map = "viridis";                        ///< see colour_map_names
-    std::optional<std::pair<double, double>> range = {};       ///< without it, the least and the greatest of the values
-    bool log = false;                                          ///< by the logarithm: values above 0 alone
-    bool labels = false;                                       ///< a colour of its own for each value, 12 at most
-    bool bar = true;                                           ///< a colour bar to the right, if there are values
-    std::string bar_title = {};                                ///< the field, its component
-    std::string unit = {};                                     ///< of its values
+    std::string colour_map = "viridis";                   ///< see colour_map_names
+    std::optional<std::pair<double, double>> range = {};  ///< without it, the least and the greatest of the values
+    bool log = false;                                     ///< by the logarithm: values above 0 alone
+    bool labels = false;                                  ///< a colour of its own for each value, 12 at most
+    bool bar = true;                                      ///< a colour bar to the right, if there are values
+    std::string bar_title = {};                           ///< the field, its component
+    std::string unit = {};                                ///< of its values
     FillMethod method = FillMethod::barycentric;
     Rounding rounding = Rounding::plain;
 };
@@ -104,8 +104,8 @@ struct GridCounts {
 
 struct FigureCounts {
     RenderCounts render;
-    double low = 0, high = 0;         ///< the range; NaN if there are no values
-    std::uint64_t without_value = 0;  ///< triangles drawn in grey, for a value of theirs is not finite
+    double low = 0, high = 0;            ///< the range; NaN if there are no values
+    std::uint64_t without_value = 0;     ///< triangles drawn in grey, for a value of theirs is not finite
     std::uint64_t below = 0, above = 0;  ///< values at corners, or of triangles, beyond the range
     GridCounts grid;
 };

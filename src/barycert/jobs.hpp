@@ -77,11 +77,22 @@ struct SamplingJob : MeshJob {
     bool count_degenerate = true;  ///< of SampleReport: a pass over the cells
 };
 
+/// Points from one end to the other, as far apart as they can be: each coordinate rounded.
+struct PointLine {
+    std::vector<double> from, to;
+    std::int64_t count = 200;  ///< at least 1; one is at the first end
+};
+
 /// Fields at points: rows to CSV, NPY or VTU files. Of a surface (read_surface): at the nearest point of it, with its
 /// triangle, the feature in which it lies, and the distance, negative where the point is inside; options.outside.limit
 /// bounds it. A map has the triangles then, and weights are those of the nearest points: nearest projection.
 struct SampleJob : SamplingJob {
     std::string points;                     ///< as for open_points; or
+    std::optional<PointLine> line = {};     ///< these
+    /// A plot of the values along the way from point to point, or of a series over its times, for each point: .png,
+    /// .svg, .pdf. At most six curves.
+    std::string plot;
+    FigureOptions figure = {};  ///< of it: title, unit, background, resolution
     std::vector<std::string> columns = {};  ///< PointOptions::columns
     std::vector<std::string> keep = {};     ///< PointOptions::keep: columns of the points that rows have, too
     std::string map;                        ///< a map (map.hpp) in place of points

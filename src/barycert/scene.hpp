@@ -80,7 +80,8 @@ struct Scene {
     Rounding rounding = Rounding::plain;
 };
 
-/// What became of the triangles, and of pixels or, where these have several, of samples. drawn + outside + degenerate + between_pixels is `triangles`.
+/// What became of the triangles, and of pixels or, where these have several, of samples. drawn + outside + degenerate +
+/// between_pixels is `triangles`.
 struct RenderCounts {
     std::uint64_t triangles = 0;
     std::uint64_t drawn = 0;           ///< cover a pixel's centre, if perhaps behind others
@@ -97,9 +98,9 @@ struct RenderCounts {
 
 /// Draws the scene; without triangles it is its background. `counts`: if given, set. `attributes`: if given, set to
 /// what colours were made of: at each pixel red, green, blue (if the scene has colours), then u, v (if it has texture
-/// coordinates); NaN where no triangle is. For one sample a pixel. A NaN in a colour, which only projected_z gives, is drawn as 0. Error: a
-/// size that is refused (also: more than max_image_pixels); arrays or choices that do not fit together; an index out of
-/// range; a number that is not finite, or not in clip space.
+/// coordinates); NaN where no triangle is. For one sample a pixel. A NaN in a colour, which only projected_z gives, is
+/// drawn as 0. Error: a size that is refused (also: more than max_image_pixels); arrays or choices that do not fit
+/// together; an index out of range; a number that is not finite, or not in clip space.
 Result<Image> render(const Scene& scene, RenderCounts* counts = nullptr, PixelValues* attributes = nullptr);
 
 /// Reads a scene from a JSON file; doc/rendering.md describes its members. Files that it names are relative to its

@@ -117,7 +117,8 @@ void Options::nonfinite(NonfinitePoints& points) const {
 
 void Options::figure(FigureOptions& f, Text what) const {
     const auto help = [&](const char* text) { return with_heading(what, text); };
-    parsed("--range", "MIN,MAX", help("the values of the first and the last colour; default: min and max of the values drawn"),
+    parsed("--range", "MIN,MAX",
+           help("the values of the first and the last colour; default: min and max of the values drawn"),
            "MIN,MAX, finite numbers, MIN < MAX", f.range, [](Text text) {
                const auto ends = ends_of(text);
                return ends && ends->first < ends->second ? ends : std::nullopt;
@@ -125,8 +126,8 @@ void Options::figure(FigureOptions& f, Text what) const {
     flag("--log", f.log, help("colours by the logarithm of values, which are to be above 0"));
     flag("--labels", f.labels, help("a colour of its own for each value, 12 at most, such as numbers of materials"));
     const std::vector<std::string> names = colour_map_names();
-    parsed("--colormap", "NAME", help("colours from low to high, by matplotlib's names; NAME_r: turned round; default: ") +
-                                     f.colour_map,
+    parsed("--colormap", "NAME",
+           help("colours from low to high, by matplotlib's names; NAME_r: turned round; default: ") + f.colour_map,
            joined(names) + ", perhaps with _r", f.colour_map, [names](Text text) -> std::optional<std::string> {
                const std::string name = text.ends_with("_r") ? text.substr(0, text.size() - 2) : text;
                return std::ranges::count(names, name) == 0 ? std::nullopt : std::optional(text);
@@ -140,16 +141,18 @@ void Options::figure(FigureOptions& f, Text what) const {
                if (text == "black") return Rgba{0, 0, 0, 255};
                if (text == "dark") return Rgba{21, 25, 28, 255};
                if (text == "none") return Rgba{255, 255, 255, 0};
-               const auto all = text.size() == 7 && text[0] == '#' ? base::whole_number<std::uint32_t, 16>(text.substr(1))
-                                                                   : std::nullopt;
+               const auto all = text.size() == 7 && text[0] == '#'
+                                    ? base::whole_number<std::uint32_t, 16>(text.substr(1))
+                                    : std::nullopt;
                if (!all) return std::nullopt;
                const auto byte = [&](unsigned shift) { return static_cast<std::uint8_t>(*all >> shift & 255U); };
                return Rgba{byte(16), byte(8), byte(0), 255};
            });
-    choice<Axes>("--axes", f.axes,
-                 {{"automatic", Axes::automatic}, {"box", Axes::box}, {"triad", Axes::triad}, {"none", Axes::none}},
-                 help("automatic (default): with numbers in the plane, a triad in space; box: around what is in space, with "
-                      "numbers"));
+    choice<Axes>(
+        "--axes", f.axes,
+        {{"automatic", Axes::automatic}, {"box", Axes::box}, {"triad", Axes::triad}, {"none", Axes::none}},
+        help("automatic (default): with numbers in the plane, a triad in space; box: around what is in space, with "
+             "numbers"));
     parsed("--resolution", "N", help("pixels of a .png for one of its size, above 0, at most 32; default: 1"),
            "a number above 0, at most 32", f.resolution, [](Text text) {
                const auto x = positive(text);
@@ -161,8 +164,8 @@ void Options::view(FigureOptions& f, Text what) const {
     const auto help = [&](const char* text) { return with_heading(what, text); };
     integer("--samples", f.samples, 1, max_samples, help("of each pixel, across and up; 1: no smooth edges"));
     size(f.size);
-    parsed("--view", "NAME", help("where the camera stands: iso, or towards +x, -x, ..., -z"), "iso, +x, -x, +y, -y, +z or -z",
-           f.camera, [&f](Text text) {
+    parsed("--view", "NAME", help("where the camera stands: iso, or towards +x, -x, ..., -z"),
+           "iso, +x, -x, +y, -y, +z or -z", f.camera, [&f](Text text) {
                auto camera = camera_of(text);
                if (camera) camera->zoom = f.camera.zoom, camera->parallel = f.camera.parallel;
                return camera;

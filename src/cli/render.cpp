@@ -87,7 +87,8 @@ bool set_clip(Text text, SceneChoice& show) {
 }
 
 /// NAME=A,B,...
-std::optional<std::pair<std::string, std::vector<double>>> named_numbers(Text text, std::size_t least, std::size_t most) {
+std::optional<std::pair<std::string, std::vector<double>>> named_numbers(Text text, std::size_t least,
+                                                                         std::size_t most) {
     const std::size_t sign = text.rfind('=');
     if (sign == std::string::npos || sign == 0) return std::nullopt;
     const auto all = numbers(',', finite, least, most)(std::string_view(text).substr(sign + 1));
@@ -98,11 +99,12 @@ std::optional<std::pair<std::string, std::vector<double>>> named_numbers(Text te
 void add_choice(const Options& o, SceneChoice& show) {
     o.edges(show.edges, show.outline, "");
     o.flag("--no-surface", show.surface, "Without the boundary: with --outline or --arrows", false);
-    o.taken("--clip", "PLANE|BOX",
-            "Cut open: leave out what lies before a plane, as slice has it, and close it by the section; or cells with a "
-            "node in a box: XMIN,XMAX,YMIN,YMAX,ZMIN,ZMAX",
-            "a plane such as x=0.5 or 1,0,0,0.5, or a box: six numbers, in the plane four",
-            [&show](Text text) { return set_clip(text, show); });
+    o.taken(
+        "--clip", "PLANE|BOX",
+        "Cut open: leave out what lies before a plane, as slice has it, and close it by the section; or cells with a "
+        "node in a box: XMIN,XMAX,YMIN,YMAX,ZMIN,ZMAX",
+        "a plane such as x=0.5 or 1,0,0,0.5, or a box: six numbers, in the plane four",
+        [&show](Text text) { return set_clip(text, show); });
     o.taken("--threshold", "NAME=MIN,MAX", "Only cells whose value is within, or the values at all of whose nodes are",
             "NAME=MIN,MAX, finite numbers", [&show](Text text) {
                 const auto given = named_numbers(text, 2, 2);
@@ -117,8 +119,7 @@ void add_choice(const Options& o, SceneChoice& show) {
             });
     o.each("--slice", "PLANE", "In place of the boundary a section; may be repeated", [&show](Text text) {
         const auto plane = plane_of(text);
-        if (!plane)
-            refuse_option("--slice", "an axis and where, such as z=0.5, or NX,NY,NZ,D, finite numbers", text);
+        if (!plane) refuse_option("--slice", "an axis and where, such as z=0.5, or NX,NY,NZ,D, finite numbers", text);
         show.slices.push_back(*plane);
     });
     o.text("--arrows", show.arrows, "Arrows of a field of vectors at nodes of what is drawn", "NAME");
@@ -134,8 +135,10 @@ void add_choice(const Options& o, SceneChoice& show) {
 void add_mesh(const Options& render) {
     const auto& [o, a] = render.command(
         "mesh", "A mesh in the colours of a field: its boundary, cut open, sections, iso-surfaces, arrows",
-        "Triangles in the plane are drawn from above, on axes. Grey: no finite value. Second-order cells are drawn with\n"
-        "straight sides. A pixel has 4 x 4 samples, each of which is drawn by exactly one of triangles that meet there.\n"
+        "Triangles in the plane are drawn from above, on axes. Grey: no finite value. Second-order cells are drawn "
+        "with\n"
+        "straight sides. A pixel has 4 x 4 samples, each of which is drawn by exactly one of triangles that meet "
+        "there.\n"
         "Exit codes: 0 done; 2 usage or input error.",
         run_picture);
     RenderJob& job = a.job;

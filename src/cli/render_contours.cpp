@@ -24,7 +24,8 @@ void add_contour_options(const Options& o, ContourArguments& a) {
 }
 
 int run_contour(ContourArguments& a) {
-    const std::string of_picture = given_option(*a.app, {"--camera", "--view", "--zoom", "--size", "--width", "--samples", "--title", "--unit", "--colormap", "--axes"});
+    const std::string of_picture = given_option(*a.app, {"--camera", "--view", "--zoom", "--size", "--width",
+                                                         "--samples", "--title", "--unit", "--colormap", "--axes"});
     if (!of_picture.empty() && !a.job.output.empty() && !is_figure_name(a.job.output))
         return fail({.what = of_picture + " is for pictures", .remedy = "leave it out, or name a .png file"});
     return a.reports.summarise(a.job, contour_files, contour_json, contour_text);
@@ -85,7 +86,8 @@ void add_iso(const Options& render) {
         "iso", "Where a field has a value: the iso-surface of a mesh, the iso-lines of a mesh of triangles",
         "The boundary of the set where the field is at least the value, exactly; watertight, normals towards lower\n"
         "values. Points are on edges of the mesh, their coordinates and the fields carried along correctly rounded.\n"
-        "Files, by the suffix: .vtp, .ply (all fields), .off (no fields, no lines); .png, .svg, .pdf (the surface, lit).\n"
+        "Files, by the suffix: .vtp, .ply (all fields), .off (no fields, no lines); .png, .svg, .pdf (the surface, "
+        "lit).\n"
         "--segment A:B --values FA,FB prints the parameter t of one segment (0 at A, 1 at B) and the point.\n"
         "Exit codes: 0 done, an empty surface included; 2 usage or input error, a picture of nothing included.",
         run_iso);
@@ -127,7 +129,8 @@ void add_slice(const Options& render) {
            "NAME");
     o.text("--output", job.output, "The section: .vtp .ply .off; a picture: .png .svg .pdf")->required();
     o.integer<std::int64_t>("--width", job.width, 1, 1000000, "Picture: pixels across the section", "PIXELS");
-    o.integer("--samples", job.figure.samples, 1, max_samples, "Picture: of each pixel, across and up; 1: exact values");
+    o.integer("--samples", job.figure.samples, 1, max_samples,
+              "Picture: of each pixel, across and up; 1: exact values");
     o.figure(job.figure, "Picture: ");
     o.flag("--edges", job.edges, "Picture: the edges of cells");
     add_contour_options(o, a);

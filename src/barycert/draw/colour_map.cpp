@@ -1,5 +1,6 @@
 // Tables of matplotlib's colour maps, without its code: viridis, magma, plasma, inferno (CC0; van der Walt and Smith),
-// cividis (Nunez, Anderton, Renslow 2018), turbo (Mikhailov; Apache-2.0), coolwarm (Moreland 2009), RdBu (ColorBrewer; Apache-2.0).
+// cividis (Nunez, Anderton, Renslow 2018), turbo (Mikhailov; Apache-2.0), coolwarm (Moreland 2009), RdBu (ColorBrewer;
+// Apache-2.0).
 #include "barycert/draw/colour_map.hpp"
 
 #include <algorithm>
@@ -180,8 +181,7 @@ Rgba ColourScale::operator()(double x) const {
     if (!std::isfinite(x) || (log && !(x > 0))) return no_value;
     if (!labels.empty()) {
         const auto at = std::ranges::lower_bound(labels, x);
-        return at == labels.end() || *at != x ? no_value
-                                              : curve_colour(static_cast<std::size_t>(at - labels.begin()));
+        return at == labels.end() || *at != x ? no_value : curve_colour(static_cast<std::size_t>(at - labels.begin()));
     }
     const double part = std::clamp(place(x), 0.0, 1.0);
     return map[std::min(map.size() - 1, static_cast<std::size_t>(static_cast<double>(map.size()) * part))];

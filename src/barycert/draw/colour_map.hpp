@@ -32,8 +32,8 @@ struct ColourScale {
 /// A bar with a scale's colours, round numbers beside it, a title above; below it what is drawn outside of the range.
 struct ColourBar {
     ColourScale scale;
-    std::string title = {};                    ///< the field, its component and unit
-    std::vector<std::string> names = {};       ///< of labels
+    std::string title = {};                           ///< the field, its component and unit
+    std::vector<std::string> names = {};              ///< of labels
     bool below = false, above = false, none = false;  ///< there is something of these
 
     double width() const;

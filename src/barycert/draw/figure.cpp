@@ -66,7 +66,8 @@ Status check_arrows(const FigureArrows& a, std::size_t d) {
 
 Status check_grid(const FigureGrid& g) {
     if (g.width < 1 || g.height < 1 || std::max(g.width, g.height) > io::longest_png_side)
-        return refusal("a grid of that size cannot be a picture", fmt::format("1 to {} values a side", io::longest_png_side),
+        return refusal("a grid of that size cannot be a picture",
+                       fmt::format("1 to {} values a side", io::longest_png_side),
                        fmt::format("{} by {}", g.width, g.height));
     if (g.values.size() != g.width * g.height || (!g.valid.empty() && g.valid.size() != g.values.size()))
         return refusal("the arrays of the grid do not fit together", fmt::format("{} by {} values", g.width, g.height),
@@ -81,7 +82,8 @@ Status check_grid(const FigureGrid& g) {
 
 Status check(const Figure& f) {
     const FigureOptions& o = f.options;
-    if (f.dimension != 2 && f.dimension != 3) return refusal("the dimension of a figure", "2 or 3", std::to_string(f.dimension));
+    if (f.dimension != 2 && f.dimension != 3)
+        return refusal("the dimension of a figure", "2 or 3", std::to_string(f.dimension));
     const auto d = static_cast<std::size_t>(f.dimension);
     for (const FigureSurface& s : f.surfaces)
         if (Status good = check_surface(s, d); !good) return good;
@@ -97,7 +99,8 @@ Status check(const Figure& f) {
         if (Status good = check_grid(*f.grid); !good) return good;
     if (Status good = check_raster_size(o.window.value_or(o.size)); !good) return good;
     if (o.samples < 1 || o.samples > max_samples)
-        return refusal("samples a pixel, across and up", fmt::format("1 to {}", max_samples), std::to_string(o.samples));
+        return refusal("samples a pixel, across and up", fmt::format("1 to {}", max_samples),
+                       std::to_string(o.samples));
     if (!(o.scale >= 0) || !std::isfinite(o.scale))
         return refusal("pixels for a unit", "a finite number above 0", base::shortest(o.scale));
     if (!(o.resolution > 0 && o.resolution <= 32))
@@ -146,7 +149,10 @@ public:
         const bool plane = f_.dimension == 2 && o_.axes != Axes::none;
         double left = plane ? 68 : 0, right = plane ? 16 : 0, top = plane ? 16 : 0, bottom = plane ? 54 : 0;
         if (!o_.title.empty()) top += 34;
-        ColourBar bar{.scale = *scale, .title = o_.unit.empty() ? o_.bar_title : o_.bar_title + " (" + o_.unit + ")", .below = counts_.below != 0, .above = counts_.above != 0};
+        ColourBar bar{.scale = *scale,
+                      .title = o_.unit.empty() ? o_.bar_title : o_.bar_title + " (" + o_.unit + ")",
+                      .below = counts_.below != 0,
+                      .above = counts_.above != 0};
         const bool with_bar = o_.bar && !std::isnan(scale->low);
         bar.none = with_bar && has_none();
         if (with_bar) right = std::max(right, bar.width());
@@ -159,14 +165,16 @@ public:
         double wide = picture_.width - left - right, tall = picture_.height - top - bottom;
         constexpr double least = 16;
         if (!window_ && (wide < least || tall < least))
-            return file_error({}, "there is no room beside bar and axes",
-                              fmt::format("more than {:.0f} by {:.0f} pixels", left + right + least, top + bottom + least),
-                              fmt::format("{} by {}", o_.size.width, o_.size.height), "choose a larger size");
+            return file_error(
+                {}, "there is no room beside bar and axes",
+                fmt::format("more than {:.0f} by {:.0f} pixels", left + right + least, top + bottom + least),
+                fmt::format("{} by {}", o_.size.width, o_.size.height), "choose a larger size");
         const double bar_top = top, bar_room = tall;
         if (window_) wide = window_->width, tall = window_->height;
         // Whole pixels of the file.
         const auto pixels = [&](double x) { return static_cast<std::int32_t>(std::lround(x * resolution_)); };
-        const double x0 = std::round(left * resolution_) / resolution_, y0 = std::round(top * resolution_) / resolution_;
+        const double x0 = std::round(left * resolution_) / resolution_,
+                     y0 = std::round(top * resolution_) / resolution_;
         origin_ = {x0, y0};
         if (grid) {
             Result<Image> image = blank_image(window_->width, window_->height, {});
@@ -243,7 +251,11 @@ private:
         const auto axis = [&](std::size_t k, double begin, double end, double room) {
             const auto [low, high] = ends[k];
             const bool turned = o_.axis_names[k].starts_with('-');
-            Axis a{.low = low, .high = high, .from = begin, .to = end, .title = o_.axis_names[k].substr(turned ? 1 : 0),
+            Axis a{.low = low,
+                   .high = high,
+                   .from = begin,
+                   .to = end,
+                   .title = o_.axis_names[k].substr(turned ? 1 : 0),
                    .grid = false};
             const int most = std::max(2, static_cast<int>(std::fabs(end - begin) / room));
             a.set(turned ? round_ticks(-high, -low, most) : round_ticks(low, high, most));
@@ -272,7 +284,8 @@ private:
             const Vector3 at = corner(view, i);
             corners_.insert(corners_.end(), at.begin(), at.end());
             for (unsigned k = 0; k < 3; ++k)
-                if ((i >> k & 1U) == 0) edges_.insert(edges_.end(), {static_cast<int>(i), static_cast<int>(i | 1U << k)});
+                if ((i >> k & 1U) == 0)
+                    edges_.insert(edges_.end(), {static_cast<int>(i), static_cast<int>(i | 1U << k)});
         }
         return {.points = corners_, .segments = edges_, .width = 1, .colour = ink(o_)};
     }
@@ -330,7 +343,8 @@ private:
             const double x = right[k], y = -up[k];
             if (std::hypot(x, y) < 0.1) continue;  // towards the viewer
             picture_.line(from, {from.x + length * x, from.y + length * y}, "axis thick");
-            picture_.text({from.x + (length + 10) * x, from.y + (length + 10) * y + 4}, std::string{"xyz"[k]}, "tick m");
+            picture_.text({from.x + (length + 10) * x, from.y + (length + 10) * y + 4}, std::string{"xyz"[k]},
+                          "tick m");
         }
     }
 
@@ -375,12 +389,12 @@ Status write_rows(const std::string& path, const Figure& figure, FigureCounts* c
 
 std::optional<FigureCamera> camera_of(std::string_view view) {
     constexpr std::array<std::pair<std::string_view, std::array<double, 2>>, 7> all{{{"iso", {45, 35.264389682754654}},
-                                                                                  {"+x", {0, 0}},
-                                                                                  {"-x", {180, 0}},
-                                                                                  {"+y", {90, 0}},
-                                                                                  {"-y", {-90, 0}},
-                                                                                  {"+z", {-90, 90}},
-                                                                                  {"-z", {-90, -90}}}};
+                                                                                     {"+x", {0, 0}},
+                                                                                     {"-x", {180, 0}},
+                                                                                     {"+y", {90, 0}},
+                                                                                     {"-y", {-90, 0}},
+                                                                                     {"+z", {-90, 90}},
+                                                                                     {"-z", {-90, -90}}}};
     for (const auto& [name, at] : all)
         if (name == view) return FigureCamera{.azimuth = at[0], .elevation = at[1]};
     return std::nullopt;
@@ -405,15 +419,26 @@ bool is_figure_name(std::string_view path) {
 
 Status write_figure(const std::string& path, const Figure& figure, FigureCounts* counts) {
     const ExactEnvironment environment;
+    const auto of_file = [&](Error error) {
+        if (error.file.empty()) error.file = path;
+        return error;
+    };
+    if (!is_figure_name(path)) return of_file(draw::refusal("pictures have other names", ".png, .svg or .pdf", path));
     constexpr double dots = 300 / 96.0;
     const bool pixels = path.ends_with(".png") || path.ends_with(".PNG");
     const double resolution = pixels ? figure.options.resolution : dots;
     const FigureOptions& o = figure.options;
-    if (pixels && figure.grid && !o.bar && o.axes == Axes::none && o.title.empty())
-        return draw::write_rows(path, figure, counts);
-    const Result<draw::Picture> picture = draw::laid_out(figure, resolution, counts);
-    if (!picture) return picture.error();
-    return draw::write_picture(path, *picture, draw::ground_of(figure.options), resolution);
+    if (pixels && figure.grid && !o.bar && o.axes == Axes::none && o.title.empty()) {
+        const Status written = draw::write_rows(path, figure, counts);
+        return written ? written : Status(of_file(written.error()));
+    }
+    FigureCounts told;
+    const Result<draw::Picture> picture = draw::laid_out(figure, resolution, &told);
+    if (!picture) return of_file(picture.error());
+    if (const Status written = draw::write_picture(path, *picture, draw::ground_of(o), resolution); !written)
+        return of_file(written.error());
+    if (counts != nullptr) *counts = told;
+    return Done{};
 }
 
 }  // namespace barycert

@@ -14,7 +14,8 @@
 // The font's file, as it is in data/fonts.
 asm(".section .rodata\n"
     ".hidden barycert_font\n.global barycert_font\n.hidden barycert_font_end\n.global barycert_font_end\n"
-    "barycert_font: .incbin \"" BARYCERT_FONT "\"\nbarycert_font_end: .byte 0\n"
+    "barycert_font: .incbin \"" BARYCERT_FONT
+    "\"\nbarycert_font_end: .byte 0\n"
     ".previous\n");
 extern "C" const unsigned char barycert_font[], barycert_font_end[];  // NOLINT(modernize-avoid-c-arrays)
 
@@ -166,16 +167,16 @@ private:
     void place(const PictureItem& item) {
         const Image& image = *item.image;
         std::vector<std::uint32_t> pixels = multiplied(image);
-        const Owned<cairo_surface_t, cairo_surface_destroy> surface(cairo_image_surface_create_for_data(
-            reinterpret_cast<unsigned char*>(pixels.data()), CAIRO_FORMAT_ARGB32, image.width, image.height,
-            4 * image.width));
+        const Owned<cairo_surface_t, cairo_surface_destroy> surface(
+            cairo_image_surface_create_for_data(reinterpret_cast<unsigned char*>(pixels.data()), CAIRO_FORMAT_ARGB32,
+                                                image.width, image.height, 4 * image.width));
         const double wide = item.width / image.width, tall = item.height / image.height;
         cairo_save(to_.get());
         cairo_translate(to_.get(), item.at.x, item.at.y);
         cairo_scale(to_.get(), wide, tall);
         cairo_set_source_surface(to_.get(), surface.get(), 0, 0);
-        const bool same = item.style == "pixels" ||
-                          (std::fabs(wide * scale_ - 1) < 1e-9 && std::fabs(tall * scale_ - 1) < 1e-9);
+        const bool same =
+            item.style == "pixels" || (std::fabs(wide * scale_ - 1) < 1e-9 && std::fabs(tall * scale_ - 1) < 1e-9);
         cairo_pattern_set_filter(cairo_get_source(to_.get()), same ? CAIRO_FILTER_NEAREST : CAIRO_FILTER_GOOD);
         cairo_paint(to_.get());
         cairo_restore(to_.get());

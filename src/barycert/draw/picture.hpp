@@ -1,5 +1,5 @@
-/// Pictures of lines, bars, marks, text and images, kept until they are written: into a page, whose style sheet says how
-/// each class looks, or as a file, where look_of says it.
+/// Pictures of lines, bars, marks, text and images, kept until they are written: into a page, whose style sheet says
+/// how each class looks, or as a file, where look_of says it.
 ///
 /// Coordinates are pixels, y downwards.
 #pragma once
@@ -28,7 +28,7 @@ enum class Mark : unsigned char { circle, square, diamond, up, down, cross };
 struct PictureItem {
     enum class Kind : unsigned char { lines, area, dots, bar, circle, text, image };
     Kind kind;
-    std::string style = {};  ///< classes; "m" and "e" are the anchors middle and end of a text
+    std::string style = {};                      ///< classes; "m" and "e" are the anchors middle and end of a text
     std::vector<std::vector<Pixel>> lines = {};  ///< of an area one, closed; of dots one
     Pixel at = {};                               ///< the upper left corner, the centre, or where the text stands
     double width = 0, height = 0;                ///< of a circle its radius
@@ -66,21 +66,36 @@ public:
     }
     void bar(Pixel corner, double wide, double tall, std::string style, std::string tip = {},
              std::optional<Rgba> colour = {}) {
-        items.push_back({.kind = PictureItem::Kind::bar, .style = std::move(style), .at = corner, .width = wide,
-                         .height = tall, .text = std::move(tip), .colour = colour});
+        items.push_back({.kind = PictureItem::Kind::bar,
+                         .style = std::move(style),
+                         .at = corner,
+                         .width = wide,
+                         .height = tall,
+                         .text = std::move(tip),
+                         .colour = colour});
     }
     void circle(Pixel at, double radius, std::string style, std::string tip = {}) {
-        items.push_back({.kind = PictureItem::Kind::circle, .style = std::move(style), .at = at, .width = radius,
+        items.push_back({.kind = PictureItem::Kind::circle,
+                         .style = std::move(style),
+                         .at = at,
+                         .width = radius,
                          .text = std::move(tip)});
     }
     void mark(Pixel at, Mark mark, double r, const std::string& style);
     void text(Pixel at, std::string text, std::string style, bool upwards = false) {
-        items.push_back({.kind = PictureItem::Kind::text, .style = std::move(style), .at = at, .text = std::move(text),
+        items.push_back({.kind = PictureItem::Kind::text,
+                         .style = std::move(style),
+                         .at = at,
+                         .text = std::move(text),
                          .upwards = upwards});
     }
     /// "pixels": they stay squares, however large.
     void place(Pixel corner, double wide, double tall, std::shared_ptr<const Image> image, std::string style = {}) {
-        items.push_back({.kind = PictureItem::Kind::image, .style = std::move(style), .at = corner, .width = wide, .height = tall,
+        items.push_back({.kind = PictureItem::Kind::image,
+                         .style = std::move(style),
+                         .at = corner,
+                         .width = wide,
+                         .height = tall,
                          .image = std::move(image)});
     }
 };
@@ -88,11 +103,11 @@ public:
 /// How a class looks in a file.
 struct Look {
     Rgba colour{34, 34, 34, 255};
-    double line = 1;               ///< its width
-    double on = 0, off = 0;        ///< dashes; 0: none
-    double size = 12;              ///< of text
-    bool filled = false;           ///< a mark
-    char anchor = 's';             ///< of text: s, m or e
+    double line = 1;         ///< its width
+    double on = 0, off = 0;  ///< dashes; 0: none
+    double size = 12;        ///< of text
+    bool filled = false;     ///< a mark
+    char anchor = 's';       ///< of text: s, m or e
 };
 
 /// Of some classes, each overriding what those before it say. `dark`: on a dark ground.

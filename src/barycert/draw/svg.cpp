@@ -11,7 +11,6 @@ std::string colour_text(Rgba c) {
     return fmt::format("#{:02x}{:02x}{:02x}", c[0], c[1], c[2]);
 }
 
-
 std::string png_text(const Image& image) {
     const auto row = static_cast<std::size_t>(4 * image.width);
     std::vector<std::uint8_t> pixels;
@@ -26,10 +25,11 @@ class Writer {
 public:
     /// Without a ground it is markup for a page.
     Writer(const Picture& picture, const Ground* ground) : ground_(ground) {
-        out_ = fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" "
-                           "height=\"{1:.0f}\" role=\"img\"{3}>\n<title>{2}</title>\n",
-                           picture.width, picture.height, xml_escaped(picture.title),
-                           ground == nullptr ? "" : " font-family=\"DejaVu Sans,Verdana,sans-serif\"");
+        out_ = fmt::format(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" "
+            "height=\"{1:.0f}\" role=\"img\"{3}>\n<title>{2}</title>\n",
+            picture.width, picture.height, xml_escaped(picture.title),
+            ground == nullptr ? "" : " font-family=\"DejaVu Sans,Verdana,sans-serif\"");
         if (ground != nullptr && ground->colour[3] != 0)
             out_ += fmt::format("<rect width=\"{:.0f}\" height=\"{:.0f}\" fill=\"{}\"/>\n", picture.width,
                                 picture.height, colour_text(ground->colour));
@@ -62,7 +62,9 @@ private:
                            l.on > 0 ? fmt::format(" stroke-dasharray=\"{:g} {:g}\"", l.on, l.off) : "",
                            item.kind == PictureItem::Kind::dots ? " stroke-linecap=\"round\"" : "");
     }
-    static std::string opacity(Rgba c) { return c[3] == 255 ? "" : fmt::format(" fill-opacity=\"{:.3g}\"", c[3] / 255.0); }
+    static std::string opacity(Rgba c) {
+        return c[3] == 255 ? "" : fmt::format(" fill-opacity=\"{:.3g}\"", c[3] / 255.0);
+    }
 
     static std::string tip(const PictureItem& item) {
         return item.text.empty() ? "" : fmt::format("<title>{}</title>", xml_escaped(item.text));
@@ -91,10 +93,12 @@ private:
                 break;
             case Kind::image:
                 out_ += fmt::format(
-                    "<image x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" preserveAspectRatio=\"none\"{} "
+                    "<image x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" "
+                    "preserveAspectRatio=\"none\"{} "
                     "href=\"{}\"/>\n",
                     item.at.x, item.at.y, item.width, item.height,
-                    item.style == "pixels" ? " style=\"image-rendering:pixelated\"" : "", data_uri("image/png", png_text(*item.image)));
+                    item.style == "pixels" ? " style=\"image-rendering:pixelated\"" : "",
+                    data_uri("image/png", png_text(*item.image)));
                 break;
         }
     }

@@ -132,8 +132,7 @@ private:
     }
     void add_triangle(const std::array<std::int32_t, 3>& corners, const std::optional<Rgba>& colour) {
         triangles.insert(triangles.end(), corners.begin(), corners.end());
-        const double shade =
-            d_ == 2 ? 1 : brightness(point(corners[0]), point(corners[1]), point(corners[2]), light_);
+        const double shade = d_ == 2 ? 1 : brightness(point(corners[0]), point(corners[1]), point(corners[2]), light_);
         paints.push_back({colour.value_or(Rgba{}), static_cast<float>(shade), !colour});
     }
 
@@ -327,7 +326,8 @@ Result<ColourScale> scale_of(const Figure& figure, FigureCounts& counts) {
     ColourScale scale;
     const auto map = colour_map(o.colour_map);
     if (!map)
-        return file_error({}, "no such map of colours", fmt::format("{}, perhaps with _r", fmt::join(colour_map_names(), ", ")),
+        return file_error({}, "no such map of colours",
+                          fmt::format("{}, perhaps with _r", fmt::join(colour_map_names(), ", ")),
                           '"' + o.colour_map + '"');
     scale.map = *map;
     scale.log = o.log;
@@ -367,7 +367,8 @@ Result<ColourScale> scale_of(const Figure& figure, FigureCounts& counts) {
         if (counts_for(x) && x > scale.high) ++counts.above;
     });
     if (!figure.grid) return scale;
-    GridCounts& of_grid = counts.grid = {.below = counts.below, .above = counts.above, .low = scale.low, .high = scale.high};
+    GridCounts& of_grid =
+        counts.grid = {.below = counts.below, .above = counts.above, .low = scale.low, .high = scale.high};
     for (std::size_t i = 0; i < figure.grid->values.size(); ++i) {
         const bool valid = figure.grid->valid.empty() || figure.grid->valid[i] != 0;
         ++(is_drawn(*figure.grid, o.log, i) ? of_grid.drawn : valid ? of_grid.not_finite : of_grid.outside);

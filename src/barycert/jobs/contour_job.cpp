@@ -36,7 +36,8 @@ void check_job(const ContourJob& job) {
     const bool picture = is_picture(job);
     if (!picture && !io::has_one_of(job.output, {".vtp", ".ply", ".off"}))
         jobs::refuse_output(job.output, ".vtp, .ply, .off, .png, .svg or .pdf");
-    for (const auto& [member, given] : {std::pair("job.colours", !job.colours.empty()), {"job.figure.range", !!job.figure.range}}) {
+    for (const auto& [member, given] :
+         {std::pair("job.colours", !job.colours.empty()), {"job.figure.range", !!job.figure.range}}) {
         if (!picture && given)
             refuse("", std::string(member) + " is for pictures", "", "", "leave it out, or name a .png file");
     }
@@ -162,7 +163,7 @@ public:
                    "draw a mesh of triangles by `" + job_.program + " resample --grid`");
         if (picture && job_.value && mesh_.dimension == 2)
             refuse(job_.output, "iso-lines cannot be written as a picture", ".vtp or .ply", "", "choose another name");
-        const bool exact = picture && job_.plane && job_.figure.samples == 1;
+        const bool exact = picture && job_.plane && (job_.figure.samples == 1 || is_computed_at_points());
         Cut cut = exact ? cut_plane({.threads = job_.threads}) : cut_with_fields();
         report_.counts = cut.counts;
         report_.points = cut.surface.point_count();
@@ -180,6 +181,11 @@ public:
     }
 
 private:
+    /// What is computed at each point, such as a length, is no interpolation of what the nodes have.
+    bool is_computed_at_points() const {
+        return sample::shape_of(mesh_, sample::number_named(mesh_, job_.field).value()).value().at_points;
+    }
+
     Cut cut_plane(const CutOptions& options) {
         tell_stage(job_, "cutting");
         const auto height = [&](std::size_t i) {
@@ -284,7 +290,8 @@ private:
         report_.fields = {job_.field};
         if (exact) return draw_values(pixels, frame, options);
         if (std::max(pixels.width, pixels.height) > max_raster_side)
-            refuse(job_.output, "the picture would be too large", fmt::format("at most {} pixels a side", max_raster_side),
+            refuse(job_.output, "the picture would be too large",
+                   fmt::format("at most {} pixels a side", max_raster_side),
                    fmt::format("{} by {}", pixels.width, pixels.height), "choose a smaller job.width");
         options.window = {static_cast<std::int32_t>(pixels.width), static_cast<std::int32_t>(pixels.height)};
         tell_stage(job_, "drawing");
@@ -294,7 +301,7 @@ private:
         if (std::isnan(report_.drawn.low)) refuse_empty(pixels);
         report_.view = options.window;
         report_.colours = job_.field;
-        report_.seconds.write = watch.lap();
+        report_.seconds.sample = watch.lap();
     }
 
     [[noreturn]] void refuse_empty(const PixelGrid& pixels) const {
@@ -344,7 +351,7 @@ private:
         report_.view = options.size;
         report_.colours = job_.colours;
         write_figure(job_.output, figure.figure(options), &report_.drawn).value();
-        report_.seconds.write = watch.lap();
+        report_.seconds.sample = watch.lap();
     }
 
     /// Lines of pixels at a time, so that memory is that of the values.

@@ -163,8 +163,7 @@ void MeshFigure::choose_cells() {
     std::vector<Mesh::Index> cells;
     for (std::size_t i = 0; i < kept.size(); ++i)
         if (kept[i]) cells.push_back(static_cast<Mesh::Index>(i));
-    if (cells.empty())
-        refuse("", "no cell is left to draw", "a threshold or box that leaves some", "none");
+    if (cells.empty()) refuse("", "no cell is left to draw", "a threshold or box that leaves some", "none");
     mesh::Part part = mesh::part_of(mesh, std::move(cells));
     chosen_ = std::move(part.mesh);
     if (chosen_.cell_numbers.empty()) chosen_.cell_numbers = part.cells;
@@ -281,12 +280,13 @@ void MeshFigure::add_edges(const Surface& surface) {
         };
         const auto [a, b] = edges[first].points;
         const Mesh::Index u = node_of(a), v = node_of(b);
-        const bool same = i - first == 2 && mesh_->cell_number(cell_of(first)) == mesh_->cell_number(cell_of(first + 1));
+        const bool same =
+            i - first == 2 && mesh_->cell_number(cell_of(first)) == mesh_->cell_number(cell_of(first + 1));
         if (u >= 0 && v >= 0 ? !is_cell_edge(cell_of(first), u, v) : same) continue;
         segments.insert(segments.end(), {a, b});
     }
-    add_lines(figure_.dimension == 2 ? numbers_.emplace_back(surface.points) : surface.points, std::move(segments), thin,
-              dark_grey);
+    add_lines(figure_.dimension == 2 ? numbers_.emplace_back(surface.points) : surface.points, std::move(segments),
+              thin, dark_grey);
 }
 
 /// Where the boundary bends by 30 degrees or more; in the plane all of it.
@@ -297,7 +297,9 @@ void MeshFigure::add_outline() {
         std::array<Vector, 3> p{};
         for (std::size_t c = 0; c < 3; ++c)
             for (std::size_t k = 0; k < 3; ++k)
-                p[c][k] = surface.points[3 * static_cast<std::size_t>(surface.cells[3 * static_cast<std::size_t>(t) + c]) + k];
+                p[c][k] =
+                    surface
+                        .points[3 * static_cast<std::size_t>(surface.cells[3 * static_cast<std::size_t>(t) + c]) + k];
         const Vector n = base::cross(base::minus(p[1], p[0]), base::minus(p[2], p[0]));
         const double length = std::sqrt(base::dot(n, n));
         return length > 0 ? Vector{n[0] / length, n[1] / length, n[2] / length} : n;
@@ -308,7 +310,8 @@ void MeshFigure::add_outline() {
     for (std::size_t i = 0; i < edges.size();) {
         const std::size_t first = i;
         while (i < edges.size() && edges[i].points == edges[first].points) ++i;
-        if (i - first == 2 && base::dot(normal(edges[first].triangle), normal(edges[first + 1].triangle)) > bend) continue;
+        if (i - first == 2 && base::dot(normal(edges[first].triangle), normal(edges[first + 1].triangle)) > bend)
+            continue;
         segments.insert(segments.end(), {edges[first].points.first, edges[first].points.second});
     }
     add_lines(surface.points, std::move(segments), thick, dark_grey);
@@ -354,7 +357,8 @@ void MeshFigure::add_arrows() {
     // Of the points that a surface has, the nodes.
     std::vector<std::size_t> nodes;
     for (const Surface& s : surfaces_)
-        for (std::size_t i = 0; i < s.mesh_edges.size(); i += 2) nodes.push_back(static_cast<std::size_t>(s.mesh_edges[i]));
+        for (std::size_t i = 0; i < s.mesh_edges.size(); i += 2)
+            nodes.push_back(static_cast<std::size_t>(s.mesh_edges[i]));
     for (std::size_t i = 0; surfaces_.empty() && i < mesh_->point_count(); ++i) nodes.push_back(i);
     std::map<std::array<std::int64_t, 3>, std::size_t> boxes;
     for (const std::size_t node : nodes) {

@@ -278,7 +278,8 @@ void check_job(const ResampleJob& job, const std::vector<jobs::Step>& steps) {
             jobs::refuse_output(job.output, ".vti, .npy, .csv, .png, .svg or .pdf for a grid, or - for CSV on stdout");
         return jobs::check_files(job, steps, {}, {{"job.output", job.output}});
     }
-    if (job.figure.range) refuse("", "job.figure.range cannot be combined with job.onto", "", "", "it is for pictures: leave it out");
+    if (job.figure.range)
+        refuse("", "job.figure.range cannot be combined with job.onto", "", "", "it is for pictures: leave it out");
     std::vector<std::string> outputs{job.output};
     if (!is_rows(job.output)) {
         const Result<io::MeshFormat> format = io::mesh_output_format(job.output);

@@ -12,8 +12,8 @@
 namespace barycert::raster {
 namespace {
 
-/// A triangle within the clip volume, in the window of samples. Numbers are finite, w > 0, the area in the window is not
-/// zero.
+/// A triangle within the clip volume, in the window of samples. Numbers are finite, w > 0, the area in the window is
+/// not zero.
 struct Part {
     std::array<double, 6> window;  ///< x and y of each vertex
     std::array<double, 3> z;       ///< z / w, the depth
@@ -113,7 +113,8 @@ void add_line(const Layers& layers, std::size_t index, RasterSize samples, std::
     // To the left and the right of both ends, which are half a width longer: lines that meet leave no notch.
     const auto corner = [&](std::size_t end, double side) {
         const double on = end == 0 ? -1 : 1;
-        return std::array{at[end][0] + half * (on * dx * 0.5 - side * dy), at[end][1] + half * (on * dy * 0.5 + side * dx)};
+        return std::array{at[end][0] + half * (on * dx * 0.5 - side * dy),
+                          at[end][1] + half * (on * dy * 0.5 + side * dx)};
     };
     const std::array corners{corner(0, 1), corner(0, -1), corner(1, -1), corner(1, 1)};
     for (const std::array<std::size_t, 3>& fan : {std::array<std::size_t, 3>{0, 1, 2}, {0, 2, 3}}) {
@@ -164,14 +165,15 @@ public:
         const std::uint64_t before = counts.covered;
         part_ = &part;
         numbers_ = numbers;
-        const bool at_each = samples_ == 1 || layers_.method != FillMethod::barycentric ||
-                             layers_.rounding == Rounding::correct;
+        const bool at_each =
+            samples_ == 1 || layers_.method != FillMethod::barycentric || layers_.rounding == Rounding::correct;
         part.line || !at_each ? draw_pixels() : draw_samples();
         return counts.covered != before;
     }
 
     void resolve_into(Image& image) {
-        counts.pixels += static_cast<std::uint64_t>(std::ranges::count_if(depth_, [](double z) { return z < HUGE_VAL; }));
+        counts.pixels +=
+            static_cast<std::uint64_t>(std::ranges::count_if(depth_, [](double z) { return z < HUGE_VAL; }));
         raster::resolve(colours_, samples_, layers_.size.width, begin_ / samples_, image);
     }
 
@@ -267,7 +269,8 @@ private:
     /// Each sample with numbers of its own.
     void draw_samples() {
         const SortedTriangle sorted(part_->window.data(), layers_.size.height * samples_);
-        const bool correct = layers_.rounding == Rounding::correct, affine = layers_.interpolation == Interpolation::affine;
+        const bool correct = layers_.rounding == Rounding::correct,
+                   affine = layers_.interpolation == Interpolation::affine;
         if (correct && layers_.numbers != 0 && !affine) return draw_correct(sorted);
         const std::vector<double> values = linear_values();
         const std::size_t linear = values.size() / 3;
@@ -349,7 +352,8 @@ private:
         const double x0 = v[0] - x, x1 = v[2] - x, x2 = v[4] - x, y0 = v[1] - y, y1 = v[3] - y, y2 = v[5] - y;
         const double a = x1 * y2 - x2 * y1, b = x2 * y0 - x0 * y2, c = x0 * y1 - x1 * y0, sum = a + b + c;
         // Of a triangle without an area in double: its first vertex.
-        const std::array<double, 3> weights = sum == 0 ? std::array{1.0, 0.0, 0.0} : std::array{a / sum, b / sum, c / sum};
+        const std::array<double, 3> weights =
+            sum == 0 ? std::array{1.0, 0.0, 0.0} : std::array{a / sum, b / sum, c / sum};
         const std::size_t linear = values_.size() / 3, n = layers_.numbers;
         row_.assign(linear, 0);
         for (std::size_t i = 0; i < 3; ++i)
@@ -408,7 +412,8 @@ public:
             counts_.hidden += band.counts.hidden;
             counts_.pixels += band.counts.pixels;
         });
-        counts_.drawn = static_cast<std::uint64_t>(std::ranges::count_if(drawn_, [](const auto& d) { return d.load(); }));
+        counts_.drawn =
+            static_cast<std::uint64_t>(std::ranges::count_if(drawn_, [](const auto& d) { return d.load(); }));
         counts_.between_pixels = counts_.triangles - counts_.outside - counts_.degenerate - counts_.drawn;
         return std::move(image_);
     }

@@ -6,7 +6,8 @@
 namespace barycert::raster {
 namespace {
 
-/// The light of each component in sRGB (IEC 61966-2-1), in 65535ths: rounded so far that it is the same on all machines.
+/// The light of each component in sRGB (IEC 61966-2-1), in 65535ths: rounded so far that it is the same on all
+/// machines.
 const std::array<std::uint16_t, 256>& light() {
     static const std::array<std::uint16_t, 256> all = [] {
         std::array<std::uint16_t, 256> table{};

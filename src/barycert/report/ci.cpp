@@ -4,7 +4,6 @@
 #include "barycert/report.hpp"
 #include "barycert/report/common/json.hpp"
 
-
 namespace barycert {
 
 using namespace report;

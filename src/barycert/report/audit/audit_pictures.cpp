@@ -1,10 +1,10 @@
 // Accuracy against speed, sizes of errors, signs and maps of meshes, as markup of the audit's page.
 
 #include "barycert/base/decades.hpp"
-#include "barycert/io/png/png_file.hpp"
-#include "barycert/report/audit/audit_words.hpp"
 #include "barycert/draw/axes.hpp"
 #include "barycert/draw/colour_map.hpp"
+#include "barycert/io/png/png_file.hpp"
+#include "barycert/report/audit/audit_words.hpp"
 
 namespace barycert::report {
 namespace {
@@ -72,8 +72,8 @@ std::string figure_of(const std::string& kind, const std::vector<const KernelRes
         const bool best = std::ranges::find(front, k) != front.end();
         const Pixel p = axes.at(*k);
         svg.circle(p, best ? 5 : 4, best ? "dot front" : "dot",
-                fmt::format("{}: {} ns, {} % wrong", k->kernel.name, brief_time(k->ns),
-                            percent(k->total.wrong_cases, k->total.cases)));
+                   fmt::format("{}: {} ns, {} % wrong", k->kernel.name, brief_time(k->ns),
+                               percent(k->total.wrong_cases, k->total.cases)));
         if (best) labels.push_back({p, k->kernel.name.substr(k->kernel.name.find('.') + 1), "front"});
     }
     place_labels(svg, std::move(labels), axes.y.to);

@@ -66,7 +66,8 @@ std::string condition_plot(const AuditReport& report) {
     Plot plot(std::string("Error of the weights over the condition number of the cell: ") +
               (simplex == Simplex::triangle ? "triangles" : "tetrahedra"));
     if (kernels.empty()) {
-        plot.picture.text({70, 80}, "Nothing to show: no kernel on triangles or tetrahedra was off in a proper cell.", "");
+        plot.picture.text({70, 80}, "Nothing to show: no kernel on triangles or tetrahedra was off in a proper cell.",
+                          "");
         return svg_text(plot.picture);
     }
     // Axes that fit what there is, and show four bits at least.
@@ -79,8 +80,8 @@ std::string condition_plot(const AuditReport& report) {
     std::vector<Curve> curves;
     for (const KernelResult* k : kernels) {
         cases = std::max(cases, k->prediction.cases());
-        Curve& curve =
-            curves.emplace_back(Curve{short_name(k->kernel), "worst factor " + factor_text(k->prediction.worst_factor())});
+        Curve& curve = curves.emplace_back(
+            Curve{short_name(k->kernel), "worst factor " + factor_text(k->prediction.worst_factor())});
         for (const Prediction::Bin& bin : k->prediction.bins()) {
             x.low = std::min(x.low, static_cast<double>(bin.bits));
             bits = std::max(bits, bin.bits + 1.0);

@@ -4,8 +4,8 @@
 #include <limits>
 
 #include "barycert/base/finite.hpp"
-#include "barycert/report/check/check_pictures.hpp"
 #include "barycert/draw/picture.hpp"
+#include "barycert/report/check/check_pictures.hpp"
 
 namespace barycert::report {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "barycert/draw/axes.hpp"
 #include "barycert/report/check/check_pictures.hpp"
 #include "barycert/report/check/check_words.hpp"
-#include "barycert/draw/axes.hpp"
 
 namespace barycert::report {
 namespace {

@@ -4,10 +4,10 @@
 #include <algorithm>
 
 #include "barycert/base/arena.hpp"
+#include "barycert/draw/axes.hpp"
 #include "barycert/mesh/adjacency.hpp"
 #include "barycert/report/check/check_pictures.hpp"
 #include "barycert/report/check/check_words.hpp"
-#include "barycert/draw/axes.hpp"
 
 namespace barycert::report {
 namespace {
