@@ -1,5 +1,7 @@
 // Fields at points.
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <set>
 
