@@ -67,7 +67,7 @@ barycert_deb(dev libbarycert-dev libdevel "exact interpolation over meshes, C++ 
   "Static libraries, headers, and what CMake and pkg-config need to find them:
 barycert::barycert with exact predicates, weights, sampling and checks of
 meshes, and barycert::audit with audits of kernels and the oracle."
-  DEPENDS libhwy-dev libtbb-dev libfmt-dev libpng-dev zlib1g-dev libexpat1-dev libdeflate-dev liblzma-dev liblz4-dev libgmp-dev libmpfr-dev
+  DEPENDS libhwy-dev libtbb-dev libfmt-dev libpng-dev libcairo2-dev libfreetype-dev zlib1g-dev libexpat1-dev libdeflate-dev liblzma-dev liblz4-dev libgmp-dev libmpfr-dev
   PARTS src/libbarycert.a src/libbarycert_audit.a)
 if(TARGET barycert_vtk)
   barycert_deb(vtk libbarycert-vtk-dev libdevel "exact cell locator and probe for VTK"

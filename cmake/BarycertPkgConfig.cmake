@@ -22,7 +22,7 @@ endfunction()
 
 set(barycert_dl ${CMAKE_DL_LIBS})
 list(TRANSFORM barycert_dl PREPEND -l)
-barycert_pkg_config(barycert "${PROJECT_DESCRIPTION}" -lbarycert "" "libhwy tbb fmt libpng zlib expat libdeflate liblzma liblz4"
+barycert_pkg_config(barycert "${PROJECT_DESCRIPTION}" -lbarycert "" "libhwy tbb fmt cairo freetype2 libpng zlib expat libdeflate liblzma liblz4"
   "-pthread ${barycert_dl}")
 if(TARGET barycert_audit)
   barycert_pkg_config(barycert-audit "Audits of kernels for barycentric weights, and the oracle" -lbarycert_audit barycert

@@ -9,7 +9,7 @@
 
 #include "barycert/check.hpp"
 #include "barycert/grid.hpp"
-#include "barycert/scene.hpp"
+#include "barycert/figure.hpp"
 #include "barycert/verify.hpp"
 
 namespace barycert {
@@ -77,11 +77,22 @@ struct SamplingJob : MeshJob {
     bool count_degenerate = true;  ///< of SampleReport: a pass over the cells
 };
 
+/// Points from one end to the other, as far apart as they can be: each coordinate rounded.
+struct PointLine {
+    std::vector<double> from, to;
+    std::int64_t count = 200;  ///< at least 1; one is at the first end
+};
+
 /// Fields at points: rows to CSV, NPY or VTU files. Of a surface (read_surface): at the nearest point of it, with its
 /// triangle, the feature in which it lies, and the distance, negative where the point is inside; options.outside.limit
 /// bounds it. A map has the triangles then, and weights are those of the nearest points: nearest projection.
 struct SampleJob : SamplingJob {
     std::string points;                     ///< as for open_points; or
+    std::optional<PointLine> line = {};     ///< these
+    /// A plot of the values along the way from point to point, or of a series over its times, for each point: .png,
+    /// .svg, .pdf. At most six curves.
+    std::string plot;
+    FigureOptions figure = {};  ///< of it: title, unit, background, resolution
     std::vector<std::string> columns = {};  ///< PointOptions::columns
     std::vector<std::string> keep = {};     ///< PointOptions::keep: columns of the points that rows have, too
     std::string map;                        ///< a map (map.hpp) in place of points
@@ -95,7 +106,7 @@ struct ResampleJob : SamplingJob {
     std::vector<double> spacing = {};       ///< of points: one for all axes, or one each
     std::vector<double> bounds = {};        ///< low and high, axis after axis; empty: the box of the cells
     std::string onto;                       ///< a mesh; `curved` is of it, too
-    std::optional<std::pair<double, double>> range = {};  ///< of the colours of a picture
+    FigureOptions figure = {};              ///< of a picture: its colours, axes, title, background
 };
 
 /// How the owners of points were found. `pass`: one look at each cell, and no index of the mesh. `axes`: by coordinates
@@ -145,7 +156,7 @@ struct SampleReport : MeshReport {
     std::vector<std::string> carried;  ///< columns that were carried through: labels of cells, columns of points
     std::string reason;                ///< why `method`: a clause
     std::optional<Grid> grid;          ///< of ResampleJob::counts and spacing
-    std::optional<SliceCounts> picture;
+    std::optional<GridCounts> picture;
     std::vector<FieldIntegral> integrals;  ///< of the cell fields that became values at nodes of another mesh
     OutsidePolicy outside;
     SampleCounts counts;  ///< locations: one a point
@@ -326,11 +337,35 @@ constexpr std::string_view name(PictureKind p) {
     return names[static_cast<std::size_t>(p)];
 }
 
-/// A picture as a PNG file. Of MeshJob, `mesh` and what belongs to it are for PictureKind::mesh alone.
+/// What of a mesh a picture shows: its boundary, in the plane its cells; or, where slices, iso-surfaces or marked cells are
+/// named, these. Cells that threshold or box leave out are not there, nor is what lies before the plane.
+struct SceneChoice {
+    bool surface = true;   ///< false: no boundary
+    bool edges = false;    ///< of cells, on what is drawn
+    bool outline = false;  ///< where the boundary bends by 30 degrees or more; in the plane all of it
+    /// Cut open: what has normal.x above the offset is left out. What is cut is closed by the section.
+    std::optional<Plane> plane = {};
+    /// Cells with a node inside are left out.
+    std::optional<std::pair<std::array<double, 3>, std::array<double, 3>>> box = {};
+    struct Threshold {
+        std::string field;  ///< as `field` of the job
+        double low = 0, high = 0;
+    };
+    std::optional<Threshold> threshold = {};  ///< cells whose value, or those at whose nodes, are all within
+    std::string iso_field;
+    std::vector<double> iso = {};  ///< values of its iso-surfaces
+    std::vector<Plane> slices = {};
+    std::string arrows;              ///< a field of nodes of as many components as there are coordinates
+    std::int64_t arrow_count = 400;  ///< about so many
+    std::vector<Mesh::Index> marked = {};  ///< cells by their numbers, in red
+};
+
+/// A picture as a file. Of MeshJob, `mesh` and what belongs to it are for PictureKind::mesh alone.
 struct RenderJob : MeshJob {
     PictureKind picture = PictureKind::scene;
-    std::string output;     ///< must end in .png
-    ViewOptions view = {};  ///< size, method and rounding of all pictures; the rest of that of a mesh
+    std::string output;  ///< .png; of a mesh also .svg or .pdf
+    FigureOptions figure = {};  ///< size, method, rounding and samples of all pictures; the rest of that of a mesh
+    SceneChoice show = {};      ///< of a mesh
     std::string scene;      ///< a file (.json)
     Interpolation interpolation = Interpolation::perspective;  ///< of a cube
     std::string image;                                         ///< of a texture: .png; empty: one of 2 by 2 texels
@@ -344,7 +379,7 @@ struct RenderJob : MeshJob {
 
 /// Of a mesh it draws facets that one cell alone has; their colours are those of nodes, or of that cell. Returns an
 /// Error if the job contradicts itself, an input cannot be read, a mesh has no such field or component or no cells, as
-/// render and draw_surface do, or if the file cannot be written.
+/// render and write_figure do, or if the file cannot be written.
 Result<RenderReport> render_files(const RenderJob& job);
 
 // Iso-surfaces, iso-lines and slices of meshes.
@@ -357,10 +392,11 @@ struct ContourJob : MeshJob {
     std::optional<Plane> plane = {};
 
     std::vector<std::string> fields = {};  ///< to carry along, see Sampler::build; empty: all. Not for pictures
-    std::string output;                    ///< .vtp, .ply, .off or .png; segments not as .off or .png
-    std::optional<std::pair<double, double>> range = {};  ///< of the colours of a picture
-    std::int64_t width = 800;  ///< of a picture of a section, in pixels, without bar and caption
-    ViewOptions view = {};     ///< of a picture of an iso-surface, but for its range
+    std::string output;        ///< .vtp, .ply, .off; .png, .svg, .pdf; segments as .vtp or .ply
+    std::int64_t width = 800;  ///< of a picture of a section, in pixels, without axes and bar
+    FigureOptions figure = {};  ///< of a picture
+    bool edges = false;         ///< of cells, on a picture
+    bool outline = false;       ///< of the mesh, on a picture of an iso-surface
     std::string colours;       ///< the field, of nodes or cells, that colours it; named as `field`; empty: grey
     std::optional<VtkData> vtk_data = {};  ///< of a .vtp file; not set: raw
     int threads = 0;                       ///< 0: as many as the machine has
@@ -388,11 +424,10 @@ struct ContourReport : MeshReport {
     SurfaceFile file;
     /// Of what is cut, the field or normal.x: its least and greatest number at nodes of cells. NaN if there is none.
     double low = 0, high = 0;
-    std::optional<PixelGrid> pixels;  ///< of a picture of a section
-    SliceCounts picture;
+    std::optional<PixelGrid> pixels;  ///< of a picture of a section; with one sample a pixel values are those there
     SampleCounts samples;
-    std::optional<RasterSize> view;  ///< of a picture of an iso-surface
-    ViewCounts drawn;
+    std::optional<RasterSize> view;  ///< of a picture that is drawn
+    FigureCounts drawn;
     std::string colours;
     JobSeconds seconds;
 };

@@ -59,8 +59,13 @@ enum class Interpolation : std::uint8_t {
     projected_z,  ///< as perspective with (z/w + 1) / 2, the depth in the window, in place of w: another usual fault
 };
 
+inline constexpr int max_samples = 8;
+
 struct Scene {
     RasterSize size;
+    /// Of a pixel, across and up, 1 to max_samples: its colour is the mean of theirs in linear light, weighted with the
+    /// opacity. Each is covered as R1 says of a pixel of a finer raster.
+    int samples = 1;
     Rgba background{255, 255, 255, 255};
     std::vector<double> positions;            ///< x, y, z, w of each vertex; w is 1 for a point
     std::vector<double> colours;              ///< red, green, blue of each vertex, or empty
@@ -75,7 +80,8 @@ struct Scene {
     Rounding rounding = Rounding::plain;
 };
 
-/// What became of the triangles and pixels. drawn + outside + degenerate + between_pixels is `triangles`.
+/// What became of the triangles, and of pixels or, where these have several, of samples. drawn + outside + degenerate +
+/// between_pixels is `triangles`.
 struct RenderCounts {
     std::uint64_t triangles = 0;
     std::uint64_t drawn = 0;           ///< cover a pixel's centre, if perhaps behind others
@@ -92,9 +98,9 @@ struct RenderCounts {
 
 /// Draws the scene; without triangles it is its background. `counts`: if given, set. `attributes`: if given, set to
 /// what colours were made of: at each pixel red, green, blue (if the scene has colours), then u, v (if it has texture
-/// coordinates); NaN where no triangle is. A NaN in a colour, which only projected_z gives, is drawn as 0. Error: a
-/// size that is refused (also: more than max_image_pixels); arrays or choices that do not fit together; an index out of
-/// range; a number that is not finite, or not in clip space.
+/// coordinates); NaN where no triangle is. For one sample a pixel. A NaN in a colour, which only projected_z gives, is
+/// drawn as 0. Error: a size that is refused (also: more than max_image_pixels); arrays or choices that do not fit
+/// together; an index out of range; a number that is not finite, or not in clip space.
 Result<Image> render(const Scene& scene, RenderCounts* counts = nullptr, PixelValues* attributes = nullptr);
 
 /// Reads a scene from a JSON file; doc/rendering.md describes its members. Files that it names are relative to its
@@ -103,43 +109,5 @@ Result<Scene> read_scene(const std::string& path);
 
 /// Paths of the files that a scene file names, for a program that must not overwrite them. Empty if it cannot be read.
 std::vector<std::string> scene_files(const std::string& path);
-
-// A picture of a surface: lit, coloured by values, from a camera that fits it, with a colour bar.
-//
-// Colours are those of colour_map.hpp, 256 equal parts of the range, looked up at each pixel with the value
-// interpolated there, times 0.35 to 1: light falls from the upper left behind the viewer, on both sides of a triangle
-// (Lambert).
-
-/// Triangles, by their points: in space, or in the plane (then they are drawn from above, without light).
-struct SurfaceView {
-    int dimension = 3;                             ///< 3, or 2: coordinates a point
-    std::span<const double> points = {};           ///< finite, in any unit
-    std::span<const std::int32_t> triangles = {};  ///< three points each
-    std::span<const double> point_values = {};     ///< one a point, or ...
-    std::span<const double> triangle_values = {};  ///< ... one a triangle, or neither: grey. NaN or infinite: none
-};
-
-struct ViewOptions {
-    RasterSize size{800, 600};  ///< of the whole picture
-    Rgba background{255, 255, 255, 255};
-    /// Where the camera stands, in degrees: azimuth from the x axis towards the y axis, elevation above the xy plane.
-    /// The z axis points up in the picture. Not for the plane.
-    double azimuth = 30, elevation = 25;
-    /// The values of the first and the last colour; without it, the least and the greatest of the values.
-    std::optional<std::pair<double, double>> range = {};
-    bool bar = true;  ///< a colour bar to the right, if there are values; its numbers have four digits
-    FillMethod method = FillMethod::barycentric;
-    Rounding rounding = Rounding::plain;
-};
-
-struct ViewCounts {
-    RenderCounts render;
-    double low = 0, high = 0;         ///< the range; NaN if there are no values
-    std::uint64_t without_value = 0;  ///< triangles drawn in grey, for a value of theirs is not finite
-};
-
-/// Draws the surface as large as it fits. Error: spans that do not fit together; an index, coordinate, angle or range
-/// that is not valid; a size that is refused or leaves no room beside the bar.
-Result<Image> draw_surface(const SurfaceView& surface, const ViewOptions& options = {}, ViewCounts* counts = nullptr);
 
 }  // namespace barycert

@@ -43,6 +43,9 @@ auto numbers(char separator, Read read, std::size_t least, std::size_t most) {
     };
 }
 
+/// An axis and where, such as z=0.5, or NX,NY,NZ,D.
+std::optional<Plane> plane_of(const std::string& given);
+
 /// MIN,MAX.
 inline std::optional<std::pair<double, double>> ends_of(std::string_view text) {
     const auto ends = numbers(',', finite, 2, 2)(text);
@@ -69,6 +72,9 @@ inline constexpr const char* mesh_help =
 
 /// What options are declared with: names, types, helps.
 using Text = const std::string&;
+
+/// Refuses what an option is given.
+[[noreturn]] void refuse_option(Text option, Text expected, Text found);
 
 /// The options of one subcommand. What they set must outlive the parser. Texts name the program as it is called.
 class Options {
@@ -164,14 +170,16 @@ public:
     void rounding(Rounding& rounding, const char* help) const {
         choice<Rounding>("--rounding", rounding, {{"correct", Rounding::correct}, {"plain", Rounding::plain}}, help);
     }
-    /// MIN,MAX: what the first and the last colour of a picture mean. `what`: "Picture: ", if there are other outputs.
-    void range(std::optional<std::pair<double, double>>& range, Text what) const;
+    /// Colours, axes, title and background of a picture. `what`: "Picture: ", if there are other outputs.
+    void figure(FigureOptions& figure, Text what) const;
+    /// Its samples, size and camera.
+    void view(FigureOptions& figure, Text what) const;
+    void edges(bool& edges, bool& outline, Text what) const;
     /// --step and --time, of a MESH that is a series. `all`: what --step all sets; nullptr: not allowed.
     void step(StepChoice& step, bool* all = nullptr) const;
     /// Fields from files; `either`: the option whose rows may be of nodes or cells. `series`: where those in steps go.
     void field_files(std::vector<FieldFile>& files, Text either, std::vector<FieldFile>* series = nullptr) const;
     void size(RasterSize& size) const;
-    void camera(ViewOptions& view, Text what) const;
 
 private:
     static CLI::Option* text_like(CLI::Option* option, Text type, bool several);

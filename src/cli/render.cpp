@@ -24,12 +24,14 @@ int run_scene_file(PictureArguments& a) {
 }
 
 void add_outputs(const Options& o, PictureArguments& a, bool required = true) {
-    o.text("--output", a.job.output, "The picture: .png")->required(required);
+    o.text("--output", a.job.output,
+           a.job.picture == PictureKind::mesh ? "The picture: .png .svg .pdf" : "The picture: .png")
+        ->required(required);
     a.reports.file(o, "--json", json_summary);
     a.reports.quiet(o, "Print no summary");
 }
 
-void add_methods(const Options& o, ViewOptions& view) {
+void add_methods(const Options& o, FigureOptions& view) {
     o.choice<FillMethod>(
         "--method", view.method,
         {{"barycentric", FillMethod::barycentric},
@@ -44,11 +46,11 @@ void add_picture(const Options& render, PictureKind picture, RasterSize size, co
                  void (*more)(const Options&, RenderJob&) = nullptr) {
     const auto& [o, a] = render.command(name(picture), about, done_or_error, run_picture);
     a.job.picture = picture;
-    a.job.view.size = size;
+    a.job.figure.size = size;
     if (more != nullptr) more(o, a.job);
     add_outputs(o, a);
-    o.size(a.job.view.size);
-    if (picture != PictureKind::clip) add_methods(o, a.job.view);
+    o.size(a.job.figure.size);
+    if (picture != PictureKind::clip) add_methods(o, a.job.figure);
 }
 
 void add_texture(const Options& o, RenderJob& job) {
@@ -74,11 +76,69 @@ void add_cube(const Options& o, RenderJob& job) {
                             "with the projected z in place of w, which is wrong as well");
 }
 
+/// LOWX,HIGHX,LOWY,HIGHY,LOWZ,HIGHZ, in the plane without the last two; or a plane.
+bool set_clip(Text text, SceneChoice& show) {
+    if ((show.plane = plane_of(text))) return true;
+    const auto ends = numbers(',', finite, 4, 6)(text);
+    if (!ends || ends->size() == 5) return false;
+    auto& [low, high] = show.box.emplace();
+    for (std::size_t i = 0; i < ends->size(); ++i) (i % 2 == 0 ? low : high)[i / 2] = (*ends)[i];
+    return true;
+}
+
+/// NAME=A,B,...
+std::optional<std::pair<std::string, std::vector<double>>> named_numbers(Text text, std::size_t least,
+                                                                         std::size_t most) {
+    const std::size_t sign = text.rfind('=');
+    if (sign == std::string::npos || sign == 0) return std::nullopt;
+    const auto all = numbers(',', finite, least, most)(std::string_view(text).substr(sign + 1));
+    return all ? std::optional(std::pair(text.substr(0, sign), *all)) : std::nullopt;
+}
+
+/// What of the mesh is drawn.
+void add_choice(const Options& o, SceneChoice& show) {
+    o.edges(show.edges, show.outline, "");
+    o.flag("--no-surface", show.surface, "Without the boundary: with --outline or --arrows", false);
+    o.taken(
+        "--clip", "PLANE|BOX",
+        "Cut open: leave out what lies before a plane, as slice has it, and close it by the section; or cells with a "
+        "node in a box: XMIN,XMAX,YMIN,YMAX,ZMIN,ZMAX",
+        "a plane such as x=0.5 or 1,0,0,0.5, or a box: six numbers, in the plane four",
+        [&show](Text text) { return set_clip(text, show); });
+    o.taken("--threshold", "NAME=MIN,MAX", "Only cells whose value is within, or the values at all of whose nodes are",
+            "NAME=MIN,MAX, finite numbers", [&show](Text text) {
+                const auto given = named_numbers(text, 2, 2);
+                if (given) show.threshold = {given->first, given->second[0], given->second[1]};
+                return given.has_value();
+            });
+    o.taken("--iso", "NAME=V,...", "In place of the boundary the iso-surfaces of a field of nodes",
+            "NAME=V,..., finite numbers", [&show](Text text) {
+                const auto given = named_numbers(text, 1, 100);
+                if (given) std::tie(show.iso_field, show.iso) = *given;
+                return given.has_value();
+            });
+    o.each("--slice", "PLANE", "In place of the boundary a section; may be repeated", [&show](Text text) {
+        const auto plane = plane_of(text);
+        if (!plane) refuse_option("--slice", "an axis and where, such as z=0.5, or NX,NY,NZ,D, finite numbers", text);
+        show.slices.push_back(*plane);
+    });
+    o.text("--arrows", show.arrows, "Arrows of a field of vectors at nodes of what is drawn", "NAME");
+    o.integer<std::int64_t>("--arrow-count", show.arrow_count, 1, 1000000, "About how many of them, spread evenly");
+    o.taken("--mark", "CELL,...", "In place of the boundary these cells in red, by their numbers, and the outline",
+            "numbers of cells", [&show](Text text) {
+                const auto all = numbers(',', base::whole_number<Mesh::Index>, 1, 100000)(text);
+                if (all) show.marked = *all;
+                return all.has_value();
+            });
+}
+
 void add_mesh(const Options& render) {
     const auto& [o, a] = render.command(
-        "mesh", "The boundary of a mesh, lit, in the colours of a field",
-        "Triangles in the plane are drawn from above. Colours go from dark violet (low) to light yellow (high); grey:\n"
-        "no finite value. Second-order cells are drawn with straight sides.\n"
+        "mesh", "A mesh in the colours of a field: its boundary, cut open, sections, iso-surfaces, arrows",
+        "Triangles in the plane are drawn from above, on axes. Grey: no finite value. Second-order cells are drawn "
+        "with\n"
+        "straight sides. A pixel has 4 x 4 samples, each of which is drawn by exactly one of triangles that meet "
+        "there.\n"
         "Exit codes: 0 done; 2 usage or input error.",
         run_picture);
     RenderJob& job = a.job;
@@ -88,12 +148,12 @@ void add_mesh(const Options& render) {
     o.text("--field", job.field,
            "The field: A, point:A or cell:A; A.1 is its component 1; default: none, the mesh is grey", "NAME");
     o.field_files(job.field_files, "--field-file");
-    o.range(job.view.range, "");
-    o.camera(job.view, "");
-    o.flag("--no-bar", job.view.bar, "Draw no colour bar", false);
+    add_choice(o, job.show);
+    o.figure(job.figure, "");
+    o.view(job.figure, "");
+    o.number("--scale", job.figure.scale, 0, "In the plane, in place of --size: pixels for a unit", "PIXELS");
     add_outputs(o, a);
-    o.size(job.view.size);
-    add_methods(o, job.view);
+    add_methods(o, job.figure);
     o.curved(job.curved);
     o.threads(job.threads);
 }

@@ -24,8 +24,9 @@ void add_contour_options(const Options& o, ContourArguments& a) {
 }
 
 int run_contour(ContourArguments& a) {
-    const std::string of_picture = given_option(*a.app, {"--azimuth", "--elevation", "--size", "--width"});
-    if (!of_picture.empty() && !a.job.output.empty() && !io::has_suffix(a.job.output, ".png"))
+    const std::string of_picture = given_option(*a.app, {"--camera", "--view", "--zoom", "--size", "--width",
+                                                         "--samples", "--title", "--unit", "--colormap", "--axes"});
+    if (!of_picture.empty() && !a.job.output.empty() && !is_figure_name(a.job.output))
         return fail({.what = of_picture + " is for pictures", .remedy = "leave it out, or name a .png file"});
     return a.reports.summarise(a.job, contour_files, contour_json, contour_text);
 }
@@ -85,7 +86,8 @@ void add_iso(const Options& render) {
         "iso", "Where a field has a value: the iso-surface of a mesh, the iso-lines of a mesh of triangles",
         "The boundary of the set where the field is at least the value, exactly; watertight, normals towards lower\n"
         "values. Points are on edges of the mesh, their coordinates and the fields carried along correctly rounded.\n"
-        "Files, by the suffix: .vtp, .ply (all fields), .off (no fields, no lines), .png (the surface, lit).\n"
+        "Files, by the suffix: .vtp, .ply (all fields), .off (no fields, no lines); .png, .svg, .pdf (the surface, "
+        "lit).\n"
         "--segment A:B --values FA,FB prints the parameter t of one segment (0 at A, 1 at B) and the point.\n"
         "Exit codes: 0 done, an empty surface included; 2 usage or input error, a picture of nothing included.",
         run_iso);
@@ -95,38 +97,22 @@ void add_iso(const Options& render) {
            "The field of nodes, or what is made of it, as sample names it: NAME.x or NAME.0, |NAME| (at the nodes)",
            "NAME");
     o.parsed("--value", "V", "Its value", "a finite number", job.value, finite);
-    o.text("--output", job.output, "The surface: .vtp .ply .off .png");
+    o.text("--output", job.output, "The surface: .vtp .ply .off; a picture: .png .svg .pdf");
     add_contour_options(o, a);
     o.text("--colours", job.colours,
            "Picture: the field of nodes or cells that colours the surface; default: none, it is grey", "NAME");
-    o.range(job.range, "Picture: ");
-    o.camera(job.view, "Picture: ");
-    o.size(job.view.size);
+    o.figure(job.figure, "Picture: ");
+    o.view(job.figure, "Picture: ");
+    o.edges(job.edges, job.outline, "Picture: ");
     add_segment(o, a);
-}
-
-std::optional<Plane> plane_of(const std::string& given) {
-    std::string text = given;
-    std::erase(text, ' ');
-    const std::size_t axis = std::string_view("xyzXYZ").find(text[0]);  // of no text: none
-    if (axis != std::string_view::npos && text.size() > 2 && text[1] == '=') {
-        const std::optional<double> offset = finite(std::string_view(text).substr(2));
-        if (!offset) return std::nullopt;
-        Plane plane{{0, 0, 0}, *offset};
-        plane.normal[axis % 3] = 1;
-        return plane;
-    }
-    const auto n = numbers(',', finite, 4, 4)(text);
-    if (!n || ((*n)[0] == 0 && (*n)[1] == 0 && (*n)[2] == 0)) return std::nullopt;
-    return Plane{{(*n)[0], (*n)[1], (*n)[2]}, (*n)[3]};
 }
 
 void add_slice(const Options& render) {
     const auto& [o, a] = render.command(
         "slice", "Cut a mesh of tetrahedra by a plane: a picture of a field, or a surface",
         "Sides of nodes are exact, for the four numbers of the plane as they are read. By the suffix of the output:\n"
-        ".png         the field in colours, with a colour bar and a scale of lengths; seen from where the normal\n"
-        "             points to, z upwards. Values are exact at the pixels' middles, which are rounded to doubles.\n"
+        ".png .svg .pdf  the field in colours, on axes; seen from where the normal points to, z upwards. With\n"
+        "             --samples 1 values are exact at the pixels' middles, which are rounded to doubles.\n"
         ".vtp .ply    triangles with all fields, correctly rounded; .off: without fields. Normals along the plane's.\n"
         "Exit codes: 0 done; 2 usage or input error, a picture of nothing included.",
         run_contour);
@@ -141,9 +127,12 @@ void add_slice(const Options& render) {
            "Picture: the field of nodes or cells that it shows, or what is made of it, as sample names it: NAME.x or "
            "NAME.0, |NAME|. Surface: carry this one only",
            "NAME");
-    o.text("--output", job.output, "The section: .png .vtp .ply .off")->required();
+    o.text("--output", job.output, "The section: .vtp .ply .off; a picture: .png .svg .pdf")->required();
     o.integer<std::int64_t>("--width", job.width, 1, 1000000, "Picture: pixels across the section", "PIXELS");
-    o.range(job.range, "Picture: ");
+    o.integer("--samples", job.figure.samples, 1, max_samples,
+              "Picture: of each pixel, across and up; 1: exact values");
+    o.figure(job.figure, "Picture: ");
+    o.flag("--edges", job.edges, "Picture: the edges of cells");
     add_contour_options(o, a);
 }
 

@@ -91,7 +91,28 @@ error.)",
            "Columns of the points to copy into the rows: names; or all: every column but the coordinates and those "
            "that rows have anyway; NEW=NAME renames a column",
            "NAMES|all");
+    o.taken("--line", "A:B", "Instead of --points: --count points from A to B", "XA,YA,ZA:XB,YB,ZB, finite numbers",
+            [&job](Text text) {
+                const auto ends = numbers(':', numbers(',', finite, 2, 3), 2, 2)(text);
+                if (!ends || (*ends)[0].size() != (*ends)[1].size()) return false;
+                if (!job.line) job.line.emplace();
+                job.line->from = (*ends)[0];
+                job.line->to = (*ends)[1];
+                return true;
+            });
+    o.taken("--count", "N", "Of --line: how many points; default: 200", "a number of at least 1", [&job](Text text) {
+        const auto n = count_of(text);
+        if (n && !job.line) job.line.emplace();
+        if (n) job.line->count = *n;
+        return n.has_value();
+    });
     o.text("--output", job.output, "Rows: .csv .npy .vtu; - is CSV on stdout");
+    o.text(
+        "--plot", job.plot,
+        "Picture of values over the length from point to point, a curve a field, broken outside the mesh; of a series "
+        "over its times: .png .svg .pdf");
+    o.text("--title", job.figure.title, "What stands above the plot; default: the mesh", "TEXT");
+    o.text("--unit", job.figure.unit, "Of the values, at the plot's axis", "TEXT");
     add_sampling_options(o, job, a.reports);
     o.nonfinite(job.options.nonfinite_points);
     o.choice<std::optional<bool>>(
@@ -125,9 +146,10 @@ error.)",
                  return bounds && bounds->size() != 5 ? bounds : std::nullopt;
              });
     o.text("--onto", job.onto, "Sample at the nodes of this mesh", "MESH2");
-    o.text("--output", job.output, "Grids: .vti .npy .csv .png; with --onto: .vtu .vtk .msh .node .csv .npy")
+    o.text("--output", job.output,
+           "Grids: .vti .npy .csv, pictures .png .svg .pdf; with --onto: .vtu .vtk .msh .node .csv .npy")
         ->required();
-    o.range(job.range, "Picture: ");
+    o.figure(job.figure, "Picture: ");
     add_sampling_options(o, job, a.reports);
 }
 

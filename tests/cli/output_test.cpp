@@ -108,19 +108,19 @@ TEST(Output, ThePictureAppearsWholeAndAloneOnStdout) {
         arguments.insert(arguments.end(), more.begin(), more.end());
         return run(arguments, how);
     };
-    const std::string file = scratch.put("plot.svg", "old");
+    const std::string file = scratch.put("plot.picture", "old");
     const Ended r = with({"--plot", file});
     EXPECT_EQ(r.code, 0) << r.err;
     EXPECT_TRUE(contains(r.out, "tetrahedron.cramer")) << "the table";
     const std::string picture = read_file(file);
     EXPECT_TRUE(picture.starts_with("<svg ") && picture.ends_with("</svg>\n"));
     EXPECT_TRUE(contains(picture, ">cramer</text>"));
-    EXPECT_EQ(scratch.names(), Words{"plot.svg"});
+    EXPECT_EQ(scratch.names(), Words{"plot.picture"});
     for (const std::string threads : {"1", "2"}) EXPECT_EQ(with({"--plot", "-", "--threads", threads}).out, picture);
     const Ended cut = with({"--quiet", "--plot", file}, {.max_file = 4096});
     EXPECT_EQ(cut.code, 2);
     EXPECT_EQ(read_file(file), picture);
-    EXPECT_EQ(scratch.names(), Words{"plot.svg"});
+    EXPECT_EQ(scratch.names(), Words{"plot.picture"});
 }
 
 TEST(Output, AFileThatMayNotGrowLeavesTheOldOne) {

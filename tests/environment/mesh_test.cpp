@@ -442,15 +442,13 @@ TEST(EveryEnvironment, Pictures) {
     std::vector<double> values;
     for (int i = -20; i < 28; ++i) values.push_back(i * unit);
     expect_same_everywhere("picture", [&](Answers& out) {
-        Slice slice;
-        slice.width = 8;
-        slice.height = 6;
-        slice.values = values;
-        slice.title = "values";
-        slice.pixel_length = 1.0 / 3;
-        SliceCounts counts;
-        out.add(write_png(folder.path("slice.png"), slice, &counts).has_value());
-        out.add(std::string_view(folder.bytes("slice.png")));
+        Figure figure{.dimension = 2, .grid = FigureGrid{.width = 8, .height = 6, .values = values}};
+        figure.options.title = "values";
+        FigureCounts counts;
+        for (const char* name : {"grid.png", "grid.svg", "grid.pdf"}) {
+            out.add(write_figure(folder.path(name), figure, &counts).has_value());
+            out.add(std::string_view(folder.bytes(name)));
+        }
         out.add(counts.low);
         out.add(counts.high);
     });

@@ -1,5 +1,5 @@
 // Clipping, textures, cameras and scenes: the same answers in every floating-point environment.
-#include "barycert/scene.hpp"
+#include "barycert/figure.hpp"
 
 #include "barycert/base/random.hpp"
 #include "barycert/raster.hpp"
@@ -99,9 +99,11 @@ TEST(EveryEnvironment, Views) {
     const std::vector<std::int32_t> triangles{0, 1, 2, 0, 1, 3, 1, 2, 3, 2, 0, 3};
     const std::vector<double> values{0x1p-1074, 0x1p-1073, 0, 0x1p-1072};
     expect_same_everywhere("views of surfaces", [&](Answers& out) {
-        ViewCounts counts;
-        const SurfaceView surface{.points = points, .triangles = triangles, .point_values = values};
-        const Image image = draw_surface(surface, {.size = {160, 100}}, &counts).value();
+        FigureCounts counts;
+        Figure figure;
+        figure.surfaces = {{.points = points, .triangles = triangles, .point_values = values}};
+        figure.options.size = {160, 100};
+        const Image image = draw_figure(figure, &counts).value();
         out.add(counts.low);
         out.add(counts.high);
         for (const std::uint8_t x : image.data) out.add(static_cast<int>(x));

@@ -12,7 +12,7 @@ name=aarch64
 bare_system "$@"
 
 tools="g++ g++-aarch64-linux-gnu cmake ninja-build qemu-user"
-libraries="libeigen3-dev libfast-float-dev nlohmann-json3-dev libcli11-dev libcgal-dev:arm64 libhwy-dev:arm64 libboost-dev:arm64 libtbb-dev:arm64 libfmt-dev:arm64 libpng-dev:arm64
+libraries="libeigen3-dev libfast-float-dev nlohmann-json3-dev libcli11-dev libcgal-dev:arm64 libhwy-dev:arm64 libboost-dev:arm64 libtbb-dev:arm64 libfmt-dev:arm64 libpng-dev:arm64 libcairo2-dev:arm64
     zlib1g-dev:arm64 libexpat1-dev:arm64 libdeflate-dev:arm64 liblz4-dev:arm64 liblzma-dev:arm64 libgtest-dev:arm64 librapidcheck-dev:arm64 libgmp-dev:arm64"
 packages=$(echo $tools $libraries)
 timed install $packages -- inside "dpkg --add-architecture arm64 && apt-get update -qq &&

@@ -11,7 +11,7 @@
 
 #include "barycert/report.hpp"
 #include "barycert/report/check/check_pictures.hpp"
-#include "barycert/report/common/picture.hpp"
+#include "barycert/draw/axes.hpp"
 #include "check_meshes.hpp"
 #include "lines.hpp"
 #include "well_formed.hpp"
@@ -146,7 +146,7 @@ TEST(Labels, KeepClearOfEachOther) {
     std::vector<report::Label> labels;
     for (int i = 0; i < 6; ++i) labels.push_back({{100 + 7.0 * i, 90}, std::to_string(1234560 + i), "id"});
     place_labels(svg, labels, 20);
-    const std::string text = std::move(svg).finish();
+    const std::string text = svg_markup(svg);
     static const std::regex place("class=\"id m\" x=\"([-0-9.]+)\" y=\"([-0-9.]+)\">");
     std::vector<std::pair<double, double>> at;
     for (std::sregex_iterator it(text.begin(), text.end(), place), end; it != end; ++it)
@@ -216,7 +216,7 @@ TEST(CheckHtml, BrokenMeshes) {
         EXPECT_TRUE(has(page, "Defects and remedies"));
         EXPECT_TRUE(has(page, "class=\"witness\""));
         for (const Defect& f : checked(mesh).defects)
-            EXPECT_TRUE(has(page, report::html_escaped(defect_text(f.kind).text))) << defect_text(f.kind).name;
+            EXPECT_TRUE(has(page, report::xml_escaped(defect_text(f.kind).text))) << defect_text(f.kind).name;
     }
 }
 
@@ -299,8 +299,8 @@ TEST(CheckHtml, NamesCannotBreakOut) {
     const std::string page = page_of(pair_of_cells(), "a<b>&\"</title><script>\xff\xc3(\x01");
     expect_well_formed(page);
     EXPECT_TRUE(has(page, "a&lt;b&gt;&amp;&quot;&lt;/title&gt;&lt;script&gt;\xef\xbf\xbd\xef\xbf\xbd( "));
-    EXPECT_EQ(report::html_escaped("κ ≥ 1 \xf0\x9f\x98\x80"), "κ ≥ 1 \xf0\x9f\x98\x80");
-    EXPECT_EQ(report::html_escaped("\xed\xa0\x80\xc0\x80"),
+    EXPECT_EQ(report::xml_escaped("κ ≥ 1 \xf0\x9f\x98\x80"), "κ ≥ 1 \xf0\x9f\x98\x80");
+    EXPECT_EQ(report::xml_escaped("\xed\xa0\x80\xc0\x80"),
               "\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd");
 }
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "barycert/audit_report.hpp"
-#include "barycert/report/common/picture.hpp"
+#include "barycert/draw/axes.hpp"
 #include "small_audit.hpp"
 
 namespace barycert::report_test {
@@ -97,10 +97,10 @@ TEST(Svg, TicksAreRoundAndFew) {
 }
 
 TEST(Svg, NamesCannotBreakOut) {
-    EXPECT_EQ(report::html_escaped("a<b>&\"c\n\x01"), "a&lt;b&gt;&amp;&quot;c  ");
+    EXPECT_EQ(report::xml_escaped("a<b>&\"c\n\x01"), "a&lt;b&gt;&amp;&quot;c  ");
     report::Picture svg(10, 10, "\"/><script>");
     svg.text({0, 0}, "</text><script>", "");
-    EXPECT_EQ(std::move(svg).finish().find("<script"), std::string::npos);
+    EXPECT_EQ(svg_markup(svg).find("<script"), std::string::npos);
 }
 
 TEST(Svg, ALineIsCutAtTheFrame) {
@@ -109,7 +109,7 @@ TEST(Svg, ALineIsCutAtTheFrame) {
     const auto drawn = [&](report::Pixel a, report::Pixel b) {
         report::Picture svg(400, 400, "");
         report::draw_line_through(svg, x, y, a, b, "");
-        return std::move(svg).finish();
+        return svg_markup(svg);
     };
     EXPECT_NE(drawn({1, 1}, {2, 2}).find("M100.0 300.0L150.0 200.0"), std::string::npos);
     EXPECT_NE(drawn({0, 3}, {1, 3}).find("M100.0 240.0L200.0 240.0"), std::string::npos);

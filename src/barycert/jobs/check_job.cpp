@@ -164,10 +164,16 @@ Result<Image> draw_checked(const CheckReport& report, const Surface& surface) {
     std::array<Image, 2> views;
     std::int32_t low = side, high = 0;  // rows that have something, and a margin
     for (const bool back : {false, true}) {
-        const ViewOptions options{
-            .size = {side, side}, .azimuth = back ? 210.0 : 30.0, .range = {{0, 1}}, .bar = false};
-        Result<Image> view =
-            draw_surface({.points = surface.points, .triangles = surface.cells, .triangle_values = marks}, options);
+        Figure figure;
+        figure.surfaces.push_back({.points = surface.points, .triangles = surface.cells, .triangle_values = marks});
+        FigureOptions& options = figure.options;
+        options.size = {side, side};
+        options.samples = 1;
+        options.camera.azimuth = back ? 210 : 30;
+        options.axes = Axes::none;
+        options.range = {0, 1};
+        options.bar = false;
+        Result<Image> view = draw_figure(figure);
         if (!view) return view.error();
         for (std::int32_t k = 0; k < side * side; ++k) {
             if (view->pixel(k % side, k / side) == options.background) continue;

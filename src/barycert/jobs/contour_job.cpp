@@ -14,6 +14,7 @@
 #include "barycert/io/formats.hpp"
 #include "barycert/jobs/field_files.hpp"
 #include "barycert/jobs/job_files.hpp"
+#include "barycert/jobs/mesh_figure.hpp"
 #include "barycert/sample/quantity/quantities.hpp"
 
 namespace barycert {
@@ -26,7 +27,7 @@ using jobs::tell_stage;
 using Vector = std::array<double, 3>;
 
 bool is_picture(const ContourJob& job) {
-    return io::has_suffix(job.output, ".png");
+    return is_figure_name(job.output);
 }
 
 void check_job(const ContourJob& job) {
@@ -34,8 +35,9 @@ void check_job(const ContourJob& job) {
         refuse("", "what to cut at", "a value or a plane", job.value ? "both" : "neither");
     const bool picture = is_picture(job);
     if (!picture && !io::has_one_of(job.output, {".vtp", ".ply", ".off"}))
-        jobs::refuse_output(job.output, ".vtp, .ply, .off or .png");
-    for (const auto& [member, given] : {std::pair("job.colours", !job.colours.empty()), {"job.range", !!job.range}}) {
+        jobs::refuse_output(job.output, ".vtp, .ply, .off, .png, .svg or .pdf");
+    for (const auto& [member, given] :
+         {std::pair("job.colours", !job.colours.empty()), {"job.figure.range", !!job.figure.range}}) {
         if (!picture && given)
             refuse("", std::string(member) + " is for pictures", "", "", "leave it out, or name a .png file");
     }
@@ -145,7 +147,7 @@ Result<PixelGrid> pixels_over(const Plane& plane, const std::vector<double>& poi
 
 class Contour {
 public:
-    explicit Contour(const ContourJob& job) : job_(job) {}
+    explicit Contour(const ContourJob& job) : job_(job) { show_.edges = job.edges; }
 
     ContourReport run() {
         Stopwatch whole, watch;
@@ -161,20 +163,29 @@ public:
                    "draw a mesh of triangles by `" + job_.program + " resample --grid`");
         if (picture && job_.value && mesh_.dimension == 2)
             refuse(job_.output, "iso-lines cannot be written as a picture", ".vtp or .ply", "", "choose another name");
-        Cut cut = picture && job_.plane ? cut_plane({.threads = job_.threads}) : cut_with_fields();
+        const bool exact = picture && job_.plane && (job_.figure.samples == 1 || is_computed_at_points());
+        Cut cut = exact ? cut_plane({.threads = job_.threads}) : cut_with_fields();
         report_.counts = cut.counts;
         report_.points = cut.surface.point_count();
         report_.parts = cut.surface.cell_count();
         report_.seconds.build = watch.lap();
-        if (!picture)
+        if (!picture) {
             write(cut.surface);
-        else
-            job_.plane ? draw(cut.surface) : draw_view(cut.surface);
+        } else if (job_.plane) {
+            draw_section(std::move(cut.surface), exact);
+        } else {
+            draw_view(std::move(cut.surface));
+        }
         report_.seconds.total = whole.lap();
         return std::move(report_);
     }
 
 private:
+    /// What is computed at each point, such as a length, is no interpolation of what the nodes have.
+    bool is_computed_at_points() const {
+        return sample::shape_of(mesh_, sample::number_named(mesh_, job_.field).value()).value().at_points;
+    }
+
     Cut cut_plane(const CutOptions& options) {
         tell_stage(job_, "cutting");
         const auto height = [&](std::size_t i) {
@@ -193,14 +204,17 @@ private:
         };
         // To carry along, a field need not be one number.
         std::vector<FieldChoice> chosen =
-            sample::quantities_named(mesh_, job_.plane && !job_.field.empty() ? std::vector{job_.field} : job_.fields)
-                .value();
+            is_picture(job_) ? std::vector<FieldChoice>()
+                             : sample::quantities_named(
+                                   mesh_, job_.plane && !job_.field.empty() ? std::vector{job_.field} : job_.fields)
+                                   .value();
         sample::make_all_fields(mesh_, chosen, made_, report_.notes).value();
-        // A picture of an iso-surface needs the field that colours it, and no other.
+        // A picture needs the field that colours it, and no other.
+        const std::string& colours = job_.plane ? job_.field : job_.colours;
         if (!is_picture(job_)) {
             for (const FieldChoice& c : chosen) carry(c, c.field->name);
-        } else if (!job_.colours.empty()) {
-            carry(jobs::field_of_numbers(mesh_, job_.colours, made_, report_.notes), job_.colours);
+        } else if (!colours.empty()) {
+            carry(jobs::field_of_numbers(mesh_, colours, made_, report_.notes), colours);
         }
         if (job_.plane) return cut_plane(options);
         const FieldChoice column = jobs::field_of_numbers(mesh_, job_.field, made_, report_.notes);
@@ -247,54 +261,97 @@ private:
 
     std::string normal_text() const { return base::joined(job_.plane->normal, ",", shortest); }
 
-    void draw(const Surface& section) {
+    /// Axes, and names of axes, of the plane.
+    FigureOptions options_of(const Frame& frame) const {
+        FigureOptions options = job_.figure;
+        if (options.bar_title.empty()) options.bar_title = job_.field;
+        if (options.title.empty() && options.axes != Axes::none)
+            options.title = fmt::format("plane {},{}", normal_text(), shortest(job_.plane->offset));
+        const auto name = [](const Vector& along) -> std::string {
+            for (std::size_t k = 0; k < 3; ++k)
+                if (std::fabs(along[k]) == 1) return std::string(along[k] < 0 ? "-" : "") + "xyz"[k];
+            return fmt::format("along ({:.3g}, {:.3g}, {:.3g})", along[0], along[1], along[2]);
+        };
+        options.axis_names = {name(frame.right), name(frame.up)};
+        const auto& n = job_.plane->normal;
+        for (std::size_t k = 0; k < 3; ++k)
+            if (job_.figure.title.empty() && std::count(n.begin(), n.end(), 0.0) == 2 && n[k] == 1)
+                options.title = fmt::format("{} = {}", "xyz"[k], shortest(job_.plane->offset + 0.0));
+        return options;
+    }
+
+    void draw_section(Surface section, bool exact) {
         Stopwatch watch;
-        const FieldChoice column = sample::number_named(mesh_, job_.field).value();
+        const Frame frame(*job_.plane);
         const Result<PixelGrid> over = pixels_over(*job_.plane, section.points, job_.width);
         if (!over) refuse_section(section, over.error());
         const PixelGrid& pixels = report_.pixels.emplace(*over);
+        FigureOptions options = options_of(frame);
+        report_.fields = {job_.field};
+        if (exact) return draw_values(pixels, frame, options);
+        if (std::max(pixels.width, pixels.height) > max_raster_side)
+            refuse(job_.output, "the picture would be too large",
+                   fmt::format("at most {} pixels a side", max_raster_side),
+                   fmt::format("{} by {}", pixels.width, pixels.height), "choose a smaller job.width");
+        options.window = {static_cast<std::int32_t>(pixels.width), static_cast<std::int32_t>(pixels.height)};
+        tell_stage(job_, "drawing");
+        jobs::MeshFigure figure(mesh_, show_, job_.field, job_.threads, report_.notes);
+        figure.add_section(std::move(section), frame.right, frame.up);
+        write_figure(job_.output, figure.figure(options), &report_.drawn).value();
+        if (std::isnan(report_.drawn.low)) refuse_empty(pixels);
+        report_.view = options.window;
+        report_.colours = job_.field;
+        report_.seconds.sample = watch.lap();
+    }
+
+    [[noreturn]] void refuse_empty(const PixelGrid& pixels) const {
+        refuse(job_.output, "nothing to draw", "a pixel whose middle is in the mesh, where the field is finite",
+               fmt::format("{} x {} pixels without one", pixels.width, pixels.height),
+               "give more pixels, job.width N, or another field");
+    }
+
+    /// The exact values at the middles of pixels.
+    void draw_values(const PixelGrid& pixels, const Frame& frame, const FigureOptions& of) {
+        Stopwatch watch;
         const auto count = static_cast<std::uint64_t>(pixels.width * pixels.height);
         BuildOptions options = jobs::build_options(job_, job_.threads);
         options.straight_sides = true;  // as the report says, and as the other pictures are
         const Locator locator = Locator::build(mesh_, options).value();
+        const FieldChoice column = sample::number_named(mesh_, job_.field).value();
         const Sampler sampler = Sampler::build(locator, {column}).value();
         std::vector<double> values(count);
         std::vector<std::uint8_t> valid(count);
         sample(pixels, sampler, values, valid);
         report_.seconds.sample = watch.lap();
-        if (std::none_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); }))
-            refuse(job_.output, "nothing to draw", "a pixel whose middle is in the mesh, where the field is finite",
-                   fmt::format("{} x {} pixels without one", pixels.width, pixels.height),
-                   "give more pixels, job.width N, or another field");
+        if (std::none_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); })) refuse_empty(pixels);
         tell_stage(job_, "writing " + job_.output);
-        Slice slice;
-        slice.width = static_cast<std::size_t>(pixels.width);
-        slice.height = static_cast<std::size_t>(pixels.height);
-        slice.values = values;
-        slice.valid = valid;
-        slice.range = job_.range;
-        slice.title = fmt::format("{}, plane {},{}", job_.field, normal_text(), shortest(job_.plane->offset));
-        slice.pixel_length = pixels.pixel;
-        report_.fields = {job_.field};
-        write_png(job_.output, slice, &report_.picture).value();
+        Figure figure{.dimension = 2, .options = of};
+        figure.grid = {.width = static_cast<std::size_t>(pixels.width),
+                       .height = static_cast<std::size_t>(pixels.height),
+                       .values = values,
+                       .valid = valid,
+                       .origin = {dot(pixels.origin, frame.right), dot(pixels.origin, frame.up)},
+                       .spacing = {pixels.pixel, pixels.pixel}};
+        write_figure(job_.output, figure, &report_.drawn).value();
         report_.seconds.write = watch.lap();
     }
 
-    void draw_view(const Surface& surface) {
+    void draw_view(Surface surface) {
         if (surface.cells.empty())
             refuse(job_.output, "the iso-surface is empty",
                    fmt::format("a value from {} to {}", shortest(report_.low), shortest(report_.high)),
                    shortest(*job_.value), "choose another value");
         Stopwatch watch;
         tell_stage(job_, "drawing");
-        ViewOptions options = job_.view;
-        if (job_.range) options.range = job_.range;
-        const Image image = draw_surface(jobs::view_of(surface), options, &report_.drawn).value();
+        FigureOptions options = job_.figure;
+        if (options.bar_title.empty()) options.bar_title = job_.colours;
+        jobs::MeshFigure figure(mesh_, show_, job_.colours, job_.threads, report_.notes);
+        figure.add(std::move(surface));
+        if (job_.outline) figure.add_outline();
         report_.view = options.size;
         report_.colours = job_.colours;
+        write_figure(job_.output, figure.figure(options), &report_.drawn).value();
         report_.seconds.sample = watch.lap();
-        write_png(job_.output, image).value();
-        report_.seconds.write = watch.lap();
     }
 
     /// Lines of pixels at a time, so that memory is that of the values.
@@ -321,6 +378,7 @@ private:
     }
 
     const ContourJob& job_;
+    SceneChoice show_;
     Mesh mesh_;
     ContourReport report_;
     std::deque<Field> made_;

@@ -160,14 +160,4 @@ void refuse_output(const std::string& path, const std::string& expected) {
     throw Exception(io::unknown_suffix(path, "unknown suffix of job.output", expected, "choose another name"));
 }
 
-SurfaceView view_of(const Surface& s) {
-    SurfaceView view{.points = s.points, .triangles = s.cells};
-    if (!s.point_fields.empty()) {
-        view.point_values = s.point_fields.front().data;
-    } else if (!s.cell_fields.empty()) {
-        view.triangle_values = s.cell_fields.front().data;
-    }
-    return view;
-}
-
 }  // namespace barycert::jobs

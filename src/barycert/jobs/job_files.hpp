@@ -121,7 +121,4 @@ void check_vtk_data(std::optional<VtkData> data, const std::string& path);
 /// Refuses an output whose suffix is none of those `expected`.
 [[noreturn]] void refuse_output(const std::string& path, const std::string& expected);
 
-/// A surface in the colours of its first field, if it has one. It must stay.
-SurfaceView view_of(const Surface& surface);
-
 }  // namespace barycert::jobs

@@ -6,6 +6,7 @@
 #include "barycert/environment.hpp"
 #include "barycert/jobs/field_files.hpp"
 #include "barycert/jobs/job_files.hpp"
+#include "barycert/jobs/mesh_figure.hpp"
 
 namespace barycert {
 namespace {
@@ -136,13 +137,13 @@ void set_clip(Scene& scene) {
 
 Scene small_picture(const RenderJob& job) {
     Scene scene;
-    scene.size = job.view.size;
+    scene.size = job.figure.size;
     if (job.picture == PictureKind::clip) {
         set_clip(scene);
         return scene;
     }
-    scene.method = job.view.method;
-    scene.rounding = job.view.rounding;
+    scene.method = job.figure.method;
+    scene.rounding = job.figure.rounding;
     if (job.picture == PictureKind::texture) set_texture(job, scene);
     if (job.picture == PictureKind::cube) set_cube(job, scene);
     if (job.picture == PictureKind::gradient) {
@@ -153,42 +154,25 @@ Scene small_picture(const RenderJob& job) {
     return scene;
 }
 
-/// The cells of a mesh in the plane, or the boundary of one in space, in the colours of the field.
-Image image_of(const RenderJob& job, const Mesh& mesh, RenderReport& report) {
-    CutOptions options{.threads = job.threads};
-    std::deque<Field> made;
-    if (!job.field.empty()) {
-        const FieldChoice found = jobs::field_of_numbers(mesh, job.field, made, report.notes);
-        (found.of_cells ? options.cell_fields : options.point_fields).push_back(found.field);
-    }
-    Surface surface;
-    if (mesh.dimension == 3) {
-        surface = boundary(mesh, options).value();
-    } else {
-        surface.points = mesh.points;
-        surface.cells = mesh.cells;
-        for (const Field* f : options.point_fields) surface.point_fields.push_back(*f);
-        for (const Field* f : options.cell_fields) surface.cell_fields.push_back(*f);
-    }
-    SurfaceView view = jobs::view_of(surface);
-    view.dimension = mesh.dimension;
-    ViewCounts counts;
-    Image image = draw_surface(view, job.view, &counts).value();
-    report.counts = counts.render;
-    if (!job.field.empty()) report.colours = {job.field, counts.low, counts.high, counts.without_value};
-    return image;
-}
-
-Image draw_mesh(const RenderJob& job, RenderReport& report) {
+void draw_mesh(const RenderJob& job, RenderReport& report) {
     const jobs::ThreadLimit limit(job.threads);
     const Mesh mesh = jobs::open_mesh_with_fields(job, job.threads, report);
     if (mesh.cells.empty()) refuse(job.mesh, "the mesh has no cells", "", "", "there is nothing to draw");
     report.input = job.mesh;
-    report.size = job.view.size;
-    report.method = job.view.method;
-    report.rounding = job.view.rounding;
+    report.size = job.figure.size;
+    report.method = job.figure.method;
+    report.rounding = job.figure.rounding;
     try {
-        return image_of(job, mesh, report);
+        jobs::MeshFigure figure(mesh, job.show, job.field, job.threads, report.notes);
+        jobs::tell_stage(job, "drawing");
+        figure.add_mesh();
+        FigureOptions options = job.figure;
+        if (options.bar_title.empty()) options.bar_title = job.field.empty() ? job.show.iso_field : job.field;
+        FigureCounts counts;
+        write_figure(job.output, figure.figure(options), &counts).value();
+        report.counts = counts.render;
+        if (!options.bar_title.empty())
+            report.colours = {options.bar_title, counts.low, counts.high, counts.without_value};
     } catch (const Exception& e) {
         Error error = e.error();
         if (error.file.empty()) error.file = job.mesh;
@@ -241,14 +225,17 @@ std::vector<base::NamedFile> inputs_of(const RenderJob& job) {
 
 Result<RenderReport> render_files(const RenderJob& job) try {
     const ExactEnvironment environment;
-    if (!job.output.ends_with(".png"))
-        refuse(job.output, "pictures are PNG files", "a name that ends in .png", "",
-               "choose another name for job.output");
+    const bool mesh = job.picture == PictureKind::mesh;
+    if (mesh ? !is_figure_name(job.output) : !job.output.ends_with(".png"))
+        jobs::refuse_output(job.output, mesh ? ".png, .svg or .pdf" : ".png");
     jobs::check_outputs(job, inputs_of(job), {{"job.output", job.output}});
     jobs::Stopwatch time;
     RenderReport report;
-    const Image image = job.picture == PictureKind::mesh ? draw_mesh(job, report) : draw_scene(job, report);
-    write_png(job.output, image).value();
+    if (job.picture == PictureKind::mesh) {
+        draw_mesh(job, report);
+    } else {
+        write_png(job.output, draw_scene(job, report)).value();
+    }
     report.picture = name(job.picture);
     report.output = job.output;
     report.seconds = time.lap();

@@ -90,7 +90,7 @@ Sink open_array(const std::string& path, const Grid& grid, std::size_t columns) 
 
 /// A picture of one column. It is kept in memory: its colours depend on all of it.
 Sink open_picture(const ResampleJob& a, const std::string& path, const std::vector<std::string>& columns,
-                  const Grid& grid, std::optional<SliceCounts>& counts) {
+                  const Grid& grid, std::optional<GridCounts>& counts) {
     // The two axes of a grid in a plane.
     std::vector<std::size_t> axes;
     for (std::size_t k = 0; k < static_cast<std::size_t>(grid.dimension); ++k) {
@@ -109,16 +109,18 @@ Sink open_picture(const ResampleJob& a, const std::string& path, const std::vect
         refuse(path, "a picture shows one column", "a field of one component, chosen by job.fields",
                columns.empty() ? "no field" : fmt::format("{}", fmt::join(columns, ", ")),
                columns.empty() ? "add one by job.field_files NAME=FILE" : "name one in job.fields");
-    Slice slice;
-    slice.width = static_cast<std::size_t>(grid.counts[w]);
-    slice.height = static_cast<std::size_t>(grid.counts[h]);
-    if (grid.spacing[w] > 0 && grid.spacing[h] > 0) slice.aspect = grid.spacing[w] / grid.spacing[h];
-    slice.range = a.range;
-    slice.title = columns.front();
+    FigureGrid picture;
+    picture.width = static_cast<std::size_t>(grid.counts[w]);
+    picture.height = static_cast<std::size_t>(grid.counts[h]);
+    picture.origin = {grid.origin[w], grid.origin[h]};
+    if (grid.spacing[w] > 0 && grid.spacing[h] > 0) picture.spacing = {grid.spacing[w], grid.spacing[h]};
+    FigureOptions options = a.figure;
+    options.axis_names = {std::string{"xyz"[w]}, std::string{"xyz"[h]}};
+    if (options.bar_title.empty()) options.bar_title = columns.front();
     for (std::size_t k = 0; k < static_cast<std::size_t>(grid.dimension); ++k) {
-        if (k != w && k != h) slice.title += fmt::format(", {} = {}", "xyz"[k], base::shortest(grid.origin[k]));
+        if (k != w && k != h && options.title.empty())
+            options.title = fmt::format("{} = {}", "xyz"[k], base::shortest(grid.origin[k]));
     }
-    slice.pixel_length = grid.spacing[w];
     const auto values = std::make_shared<std::vector<double>>();
     const auto valid = std::make_shared<std::vector<std::uint8_t>>();
     const auto write = [values, valid](const TableView& rows) -> Status {
@@ -129,9 +131,12 @@ Sink open_picture(const ResampleJob& a, const std::string& path, const std::vect
         return Done{};
     };
     return jobs::sink_of(write, [=, &counts]() mutable {
-        slice.values = *values;
-        slice.valid = *valid;
-        return write_png(path, slice, &counts.emplace());
+        picture.values = *values;
+        picture.valid = *valid;
+        FigureCounts told;
+        const Status written = write_figure(path, {.dimension = 2, .grid = picture, .options = options}, &told);
+        counts = told.grid;
+        return written;
     });
 }
 
@@ -165,9 +170,9 @@ std::array<double, 3> point_of(const Grid& grid, std::uint64_t i) {
 /// A sink of the blocks of a grid, in order, whose views have no points: `path`, by its suffix. `picture` gets, with
 /// the commit, what became of values. Refused: a format that cannot hold fields or grid.
 Sink open_grid_sink(const ResampleJob& job, const std::string& path, const TableFormat& format, const Grid& grid,
-                    std::optional<SliceCounts>& picture) {
+                    std::optional<GridCounts>& picture) {
     const std::vector<std::string> columns = format.columns();
-    const bool png = io::has_suffix(path, ".png"), array = io::has_suffix(path, ".npy");
+    const bool png = is_figure_name(path), array = io::has_suffix(path, ".npy");
     if (!format.carried.empty() && (png || array))
         refuse_label(format.carried.front(), path, "fields",
                      "write .csv, or integers to .vti, or leave the label out of job.fields");
@@ -266,13 +271,15 @@ void check_job(const ResampleJob& job, const std::vector<jobs::Step>& steps) {
                "for the points of a grid, write them to a file first (job.output grid.csv), and use "
                "`barycert sample --points grid.csv --weights`");
     if (job.onto.empty()) {
-        if (job.range && !io::has_suffix(job.output, ".png"))
-            refuse(job.output, "job.range needs a picture", "", "", "use job.output FILE.png, or leave job.range out");
-        if (job.output != "-" && !io::has_one_of(job.output, {".csv", ".npy", ".vti", ".png"}))
-            jobs::refuse_output(job.output, ".vti, .npy, .csv or .png for a grid, or - for CSV on stdout");
+        if (job.figure.range && !is_figure_name(job.output))
+            refuse(job.output, "job.figure.range needs a picture", "", "",
+                   "use job.output FILE.png, or leave job.figure.range out");
+        if (job.output != "-" && !io::has_one_of(job.output, {".csv", ".npy", ".vti", ".png", ".svg", ".pdf"}))
+            jobs::refuse_output(job.output, ".vti, .npy, .csv, .png, .svg or .pdf for a grid, or - for CSV on stdout");
         return jobs::check_files(job, steps, {}, {{"job.output", job.output}});
     }
-    if (job.range) refuse("", "job.range cannot be combined with job.onto", "", "", "it is for pictures: leave it out");
+    if (job.figure.range)
+        refuse("", "job.figure.range cannot be combined with job.onto", "", "", "it is for pictures: leave it out");
     std::vector<std::string> outputs{job.output};
     if (!is_rows(job.output)) {
         const Result<io::MeshFormat> format = io::mesh_output_format(job.output);

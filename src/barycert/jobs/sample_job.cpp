@@ -1,5 +1,7 @@
 // Fields at points.
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <set>
 
@@ -8,7 +10,7 @@
 #include "barycert/io/formats.hpp"
 #include "barycert/io/npz/weights_file.hpp"
 #include "barycert/io/polygons/triangles.hpp"
-#include "barycert/jobs/stream.hpp"
+#include "barycert/jobs/profile.hpp"
 #include "barycert/map.hpp"
 #include "barycert/sample/quantity/quantities.hpp"
 #include "barycert/surface_locator.hpp"
@@ -20,10 +22,14 @@ using jobs::refuse;
 using jobs::SampledMesh;
 
 void check_job(const SampleJob& job, const std::vector<jobs::Step>& steps) {
-    if (job.points.empty() == job.map.empty())
-        refuse("", job.points.empty() ? "no points" : "job.points and job.map",
-               "one of job.points FILE and job.map FILE", job.points.empty() ? "neither" : "both",
+    const int given = (job.points.empty() ? 0 : 1) + (job.map.empty() ? 0 : 1) + (job.line ? 1 : 0);
+    if (given != 1)
+        refuse("", given == 0 ? "no points" : "job.points, job.map and job.line",
+               "one of job.points FILE, job.map FILE and job.line A:B", given == 0 ? "none" : "several",
                "a map contains its points");
+    if (!job.plot.empty() && !is_figure_name(job.plot)) jobs::refuse_output(job.plot, ".png, .svg or .pdf");
+    if (!job.plot.empty() && job.all_steps)
+        refuse(job.plot, "a plot of outputs of steps", "the steps as columns of one output", "", "leave {step} out");
     if (!job.map.empty() && !job.save_map.empty())
         refuse(job.save_map, "job.save_map cannot be combined with job.map", "", "", "copy the map");
     if (!job.map.empty() && !(job.columns.empty() && job.keep.empty()))
@@ -31,20 +37,21 @@ void check_job(const SampleJob& job, const std::vector<jobs::Step>& steps) {
                "", "", "a map has points and cells alone: name the file of the points by job.points");
     if (job.map == "-" || job.save_map == "-")
         refuse("", "a map cannot come from stdin or go to stdout", "", "", "name a file");
-    if (job.output.empty() && job.weights.empty())
-        refuse("", "no output", "job.output FILE, job.weights FILE, or both", "neither");
-    if (job.output.empty() &&
+    if (job.output.empty() && job.weights.empty() && job.plot.empty())
+        refuse("", "no output", "job.output FILE, job.weights FILE or job.plot FILE", "none");
+    if (job.output.empty() && job.plot.empty() &&
         !(job.fields.empty() && job.field_files.empty() && job.series.empty() && job.keep.empty()))
         refuse("", "fields or columns without job.output", "", "",
                "weights depend on no field: leave fields out, or name job.output too");
     if (!job.output.empty() && job.output != "-" && !io::has_one_of(job.output, {".csv", ".npy", ".vtu"}))
         jobs::refuse_output(job.output, ".csv, .npy or .vtu, or - for CSV on stdout");
     std::vector<base::NamedFile> inputs{{"job.map", job.map}};
-    if (job.map.empty()) inputs = {{"job.points", job.points}};
+    if (!job.points.empty()) inputs = {{"job.points", job.points}};
     // Not the file itself, but the stem of a mesh.
-    if (job.map.empty() && job.points != "-" && !io::exists(job.points) && !io::format_of_points(job.points))
+    if (!job.points.empty() && job.points != "-" && !io::exists(job.points) && !io::format_of_points(job.points))
         inputs = base::named_files("the mesh of job.points", mesh_files(job.points));
-    jobs::check_files(job, steps, inputs, {{"job.output", job.output}, {"job.save_map", job.save_map}});
+    jobs::check_files(job, steps, inputs,
+                      {{"job.output", job.output}, {"job.save_map", job.save_map}, {"job.plot", job.plot}});
 }
 
 /// Rows of a map, which must stay. Those of one point follow one another, their cells ascending.
@@ -74,15 +81,26 @@ jobs::RowSource rows_of_map(MapReader& map) {
 /// The outputs of the job; `carried`: columns of the points.
 jobs::OpenRows outputs_of(SampledMesh& mesh, const SampleJob& job, const std::vector<ColumnFormat>& carried) {
     return [&mesh, &job, carried](const std::string& path) {
-        if (path.empty()) return jobs::Sink();
         const bool all = job.keep == std::vector<std::string>{"all"};
-        return open_user_rows(mesh, carried, all,
-                              [&](const TableFormat& format) { return jobs::open_rows(path, format); });
+        jobs::Sink rows =
+            path.empty() ? jobs::Sink() : open_user_rows(mesh, carried, all, [&](const TableFormat& format) {
+                return jobs::open_rows(path, format);
+            });
+        return job.plot.empty() ? std::move(rows)
+                                : jobs::plotted(std::move(rows), job, mesh.format().columns(), mesh.report);
     };
 }
 
 /// With the types of columns, unless they go as they are into CSV.
 std::unique_ptr<PointSource> points_of(const SampleJob& job, int dimension, NonfinitePoints nonfinite) {
+    if (job.line) {
+        const std::size_t d = job.line->from.size();
+        if (d != static_cast<std::size_t>(dimension) || d != job.line->to.size() || job.line->count < 1)
+            refuse(job.mesh, "job.line",
+                   fmt::format("two points of {} coordinates, and a count of at least 1", dimension),
+                   fmt::format("{} and {} coordinates, {} points", d, job.line->to.size(), job.line->count));
+        return jobs::points_on(*job.line);
+    }
     const bool csv = job.output == "-" || io::has_suffix(job.output, ".csv");
     const PointOptions options{.columns = job.columns, .keep = job.keep, .nonfinite_points = nonfinite, .typed = !csv};
     return open_points(job.points, dimension, options).value();
@@ -95,7 +113,7 @@ void at_points(SampledMesh& mesh, const SampleJob& job) {
     SampleReport& report = mesh.report;
     report.seconds.read += watch.lap();  // some files are read as a whole, and some twice
     std::ranges::copy(points->notes(), std::back_inserter(report.notes));
-    report.points = job.points;
+    report.points = job.line ? "line" : job.points;
     report.all = job.all.value_or(false);
     jobs::RowSource rows = jobs::rows_of_points(points);
     rows.begin_again = [&](const SampledMesh&) {

@@ -78,14 +78,16 @@ struct SortedTriangle {
     }
 };
 
-/// f(row, first, last): the pixels first ... last - 1 of each row that the triangle covers, from the bottom. Where the
-/// area is zero the crossings of both sides are equal, and there are none.
+/// f(row, first, last): the pixels first ... last - 1 of each row in [begin, end) that the triangle covers, from the
+/// bottom. Where the area is zero the crossings of both sides are equal, and there are none.
 template <class F>
-void for_spans(const SortedTriangle& t, std::int32_t width, F f) {
+void for_spans(const SortedTriangle& t, std::int32_t width, std::int32_t begin, std::int32_t end, F f) {
     if (t.begin == t.end) return;
     const Edge whole(t.vertex[0], t.vertex[2]);
     const auto part = [&](std::int32_t from, std::int32_t to, const double* lower, const double* upper) {
-        if (from == to) return;
+        from = std::max(from, begin);
+        to = std::min(to, end);
+        if (from >= to) return;
         const Edge edge(lower, upper);
         for (std::int32_t j = from; j < to; ++j) {
             const std::int32_t x = crossing(whole, j, width), y = crossing(edge, j, width);
@@ -94,6 +96,12 @@ void for_spans(const SortedTriangle& t, std::int32_t width, F f) {
     };
     part(t.begin, t.middle, t.vertex[0], t.vertex[1]);
     part(t.middle, t.end, t.vertex[1], t.vertex[2]);
+}
+
+/// Of all rows.
+template <class F>
+void for_spans(const SortedTriangle& t, std::int32_t width, F f) {
+    for_spans(t, width, t.begin, t.end, f);
 }
 
 }  // namespace barycert::raster

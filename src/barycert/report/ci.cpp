@@ -1,11 +1,13 @@
 #include "barycert/base/json_text.hpp"
+#include "barycert/base/text.hpp"
+#include "barycert/draw/picture.hpp"
 #include "barycert/report.hpp"
 #include "barycert/report/common/json.hpp"
-#include "barycert/report/common/picture.hpp"
 
 namespace barycert {
 
 using namespace report;
+using draw::xml_escaped;
 
 namespace {
 
@@ -13,12 +15,12 @@ using State = CiOutcome::State;
 
 std::string testcase(const CiOutcome& o) {
     const std::string head = fmt::format("    <testcase classname=\"{}\" name=\"{}\" time=\"0\"",
-                                         html_escaped(o.subject), html_escaped(o.name));
+                                         xml_escaped(o.subject), xml_escaped(o.name));
     if (o.state == State::passed) return head + "/>\n";
     if (o.state == State::noted)
-        return fmt::format("{}>\n      <system-out>{}</system-out>\n    </testcase>\n", head, html_escaped(o.message));
+        return fmt::format("{}>\n      <system-out>{}</system-out>\n    </testcase>\n", head, xml_escaped(o.message));
     return fmt::format("{}>\n      <failure type=\"{}\" message=\"{}\">{}</failure>\n    </testcase>\n", head,
-                       html_escaped(o.rule), html_escaped(o.message), html_escaped(o.subject + ": " + o.message));
+                       xml_escaped(o.rule), xml_escaped(o.message), xml_escaped(o.subject + ": " + o.message));
 }
 
 std::ptrdiff_t failures(std::span<const CiOutcome> outcomes) {
@@ -57,7 +59,7 @@ std::string ci_junit(const CiReport& report) {
     const std::vector<CiOutcome>& all = report.outcomes;
     std::string out = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
     out += fmt::format("<testsuites name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"0\" time=\"{:.3f}\">\n",
-                       html_escaped(report.command), all.size(), failures(all), report.seconds);
+                       xml_escaped(report.command), all.size(), failures(all), report.seconds);
     for (std::size_t i = 0; i < all.size();) {
         std::size_t end = i;
         std::string cases;
@@ -65,7 +67,7 @@ std::string ci_junit(const CiReport& report) {
         out += fmt::format(
             "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"0\" skipped=\"0\" time=\"0\">\n{}  "
             "</testsuite>\n",
-            html_escaped(all[i].subject), end - i, failures(std::span(all).subspan(i, end - i)), cases);
+            xml_escaped(all[i].subject), end - i, failures(std::span(all).subspan(i, end - i)), cases);
         i = end;
     }
     return out + "</testsuites>\n";

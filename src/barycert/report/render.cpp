@@ -111,15 +111,15 @@ void tell_notes(Document& d, const ContourReport& s) {
     for (const Note& told : s.notes) d.name("note", message(told), Tone::strong);
 }
 
+/// Of a section: with values at pixels, or of triangles.
 std::string pixels_text(const ContourReport& s) {
-    const SliceCounts& n = s.picture;
+    const FigureCounts& n = s.drawn;
     const std::string text =
         fmt::format("{} x {} pixels of {:.6g}", s.pixels->width, s.pixels->height, s.pixels->pixel);
-    if (std::isnan(n.low)) return text + "; nothing drawn: no point has a finite value";
-    const std::uint64_t clear = n.outside + n.not_finite;
+    const std::uint64_t clear = n.grid.outside + n.grid.not_finite;
     return text + "; colours from " + range_text(n.low, n.high) +
            (n.below + n.above == 0 ? "" : fmt::format("; {} below and {} above", n.below, n.above)) +
-           (clear == 0 ? "" : fmt::format("; {} without a value, transparent", clear));
+           (clear == 0 ? "" : fmt::format("; {} without a value", clear));
 }
 
 std::string view_text(const ContourReport& s) {
@@ -149,16 +149,16 @@ Document contour_document(const ContourReport& s, const Environment& environment
                                         base::shortest(s.plane->offset)));
     if (s.pixels) {
         const PixelGrid& p = *s.pixels;
-        const SliceCounts& n = s.picture;
-        d.figure("picture",
-                 record(MEMBERS(p, width, height, pixel, origin), "right", p.step_right, "up", p.step_up,
-                        MEMBERS(n, low, high, drawn, below, above, outside, not_finite)),
-                 "picture", pixels_text(s));
-        d.name("values", fmt::format("exact{} at the pixels' middles, which are rounded to doubles; rounded once",
-                                     for_straight_sides(s.curved)));
-    } else {
-        tell_surface(d, s);
+        Json picture = record(MEMBERS(p, width, height, pixel, origin), "right", p.step_right, "up", p.step_up,
+                              MEMBERS(s.drawn, low, high, below, above));
+        const GridCounts& n = s.drawn.grid;
+        if (!s.view) put(picture, MEMBERS(n, drawn, outside, not_finite));
+        d.figure("picture", std::move(picture), "picture", pixels_text(s));
+        if (!s.view)
+            d.name("values", fmt::format("exact{} at the pixels' middles, which are rounded to doubles; rounded once",
+                                         for_straight_sides(s.curved)));
     }
+    if (!s.pixels || s.view) tell_surface(d, s);
     if (s.view) {
         const double none = std::nan("");
         put(d.data, "view",
@@ -172,7 +172,7 @@ Document contour_document(const ContourReport& s, const Environment& environment
     d.name("mesh", cells_text(s.cells, s.simplices, s.dimension) + ", " + counted(s.nodes, "node"));
     const JobSeconds& t = s.seconds;
     std::vector<std::pair<std::string_view, double>> parts{{"mesh", t.mesh}, {"cutting", t.build}};
-    if (s.pixels || s.view) parts.emplace_back(s.pixels ? "sampling" : "drawing", t.sample);
+    if (s.pixels || s.view) parts.emplace_back(s.view ? "drawing" : "sampling", t.sample);
     parts.emplace_back("writing", t.write);
     d.figure("seconds", record(MEMBERS(t, mesh), "cut", t.build, MEMBERS(t, sample, write, total)), "time",
              time_text(t.total, s.threads, parts));

@@ -76,7 +76,7 @@ std::string steps_text(const SampleReport& s) {
     return text;
 }
 
-void tell_picture(Document& d, const SliceCounts& n) {
+void tell_picture(Document& d, const GridCounts& n) {
     const auto points = [](std::uint64_t count, const char* how) {
         return count == 0 ? "" : fmt::format("; {} {}", counted(count, "point"), how);
     };
@@ -85,7 +85,7 @@ void tell_picture(Document& d, const SliceCounts& n) {
                  ? "nothing drawn: no point has a finite value"
                  : fmt::format("colours from {} to {}", base::shortest(n.low), base::shortest(n.high)) +
                        points(n.below, "below, drawn as the first") + points(n.above, "above, drawn as the last") +
-                       points(n.outside + n.not_finite, "without a value, transparent"));
+                       points(n.outside + n.not_finite, "without a value"));
 }
 
 void tell_integrals(Document& d, const std::vector<FieldIntegral>& all) {

@@ -128,6 +128,22 @@ bool encode(Encoder& e) {
     return true;
 }
 
+Result<std::string> in_memory(png_image& image, std::size_t width, std::size_t height,
+                              std::span<const std::uint8_t> pixels, std::size_t bytes, const void* map) {
+    image.version = PNG_IMAGE_VERSION;
+    image.width = static_cast<png_uint_32>(width);
+    image.height = static_cast<png_uint_32>(height);
+    png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
+    std::string out(size, '\0');
+    const auto stride = static_cast<png_int_32>(bytes * width);
+    const int done = png_image_write_to_memory(&image, out.data(), &size, 0, pixels.data(), stride, map);
+    const std::string message = image.message;
+    png_image_free(&image);
+    if (done == 0) return Error{.what = "cannot make a picture", .found = message};
+    out.resize(size);
+    return out;
+}
+
 }  // namespace
 
 Result<PngPixels> read_png_pixels(const std::string& path, std::uint64_t max_pixels) {
@@ -180,23 +196,18 @@ Status write_png_rows(const std::string& path, std::size_t width, std::size_t he
 
 Result<std::string> indexed_png(std::size_t width, std::span<const std::uint8_t> pixels,
                                 std::span<const Colour> colours) {
-    png_image image{};
-    image.version = PNG_IMAGE_VERSION;
-    image.width = static_cast<png_uint_32>(width);
-    image.height = static_cast<png_uint_32>(pixels.size() / width);
-    image.format = PNG_FORMAT_RGB_COLORMAP;
-    image.colormap_entries = static_cast<png_uint_32>(colours.size());
     std::vector<std::uint8_t> map;
     for (const Colour& c : colours) map.insert(map.end(), c.begin(), c.end());
-    png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
-    std::string bytes(size, '\0');
-    const auto stride = static_cast<png_int_32>(width);
-    const int done = png_image_write_to_memory(&image, bytes.data(), &size, 0, pixels.data(), stride, map.data());
-    const std::string message = image.message;
-    png_image_free(&image);
-    if (done == 0) return Error{.what = "cannot make a picture", .found = message};
-    bytes.resize(size);
-    return bytes;
+    png_image image{};
+    image.format = PNG_FORMAT_RGB_COLORMAP;
+    image.colormap_entries = static_cast<png_uint_32>(colours.size());
+    return in_memory(image, width, pixels.size() / width, pixels, 1, map.data());
+}
+
+Result<std::string> png_bytes(std::size_t width, std::span<const std::uint8_t> pixels) {
+    png_image image{};
+    image.format = PNG_FORMAT_RGBA;
+    return in_memory(image, width, pixels.size() / 4 / width, pixels, 4, nullptr);
 }
 
 }  // namespace barycert::io

@@ -1,13 +1,16 @@
 /// PNG files into memory, and out of pixels, by libpng.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <functional>
 #include <span>
 
-#include "barycert/io/png/colour_map.hpp"
 #include "barycert/result.hpp"
 
 namespace barycert::io {
+
+using Colour = std::array<std::uint8_t, 3>;  ///< red, green, blue, sRGB
 
 /// Libpng, and so most programs, reads no more pixels a side unless told to.
 inline constexpr std::size_t longest_png_side = 1000000;
@@ -29,6 +32,9 @@ Status write_png_rows(const std::string& path, std::size_t width, std::size_t he
 /// `width`, both > 0; 1 to 256 colours; indices are those of colours.
 Result<std::string> indexed_png(std::size_t width, std::span<const std::uint8_t> pixels,
                                 std::span<const Colour> colours);
+
+/// 8-bit RGBA in sRGB, 4 bytes a pixel, row by row from the top, likewise.
+Result<std::string> png_bytes(std::size_t width, std::span<const std::uint8_t> pixels);
 
 struct PngPixels {
     std::uint32_t width = 0, height = 0;

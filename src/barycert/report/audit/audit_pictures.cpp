@@ -1,9 +1,10 @@
 // Accuracy against speed, sizes of errors, signs and maps of meshes, as markup of the audit's page.
 
 #include "barycert/base/decades.hpp"
+#include "barycert/draw/axes.hpp"
+#include "barycert/draw/colour_map.hpp"
 #include "barycert/io/png/png_file.hpp"
 #include "barycert/report/audit/audit_words.hpp"
-#include "barycert/report/common/picture.hpp"
 
 namespace barycert::report {
 namespace {
@@ -36,7 +37,7 @@ struct ParetoAxes {
         }
         x.low = std::log10(fast) - 0.35;
         x.high = std::log10(slow) + 0.25;
-        x.ticks = decade_ticks(x.low, x.high);
+        x.ticks = log_ticks(x.low, x.high);
         const double floor = std::min(std::floor(std::log10(least)), -1.0);
         none = floor * 7 / 6;  // a sixth of the decades below
         y.low = floor * 4 / 3;
@@ -70,9 +71,9 @@ std::string figure_of(const std::string& kind, const std::vector<const KernelRes
     for (const KernelResult* k : kernels) {
         const bool best = std::ranges::find(front, k) != front.end();
         const Pixel p = axes.at(*k);
-        svg.dot(p, best ? 5 : 4, best ? "dot front" : "dot",
-                fmt::format("{}: {} ns, {} % wrong", k->kernel.name, brief_time(k->ns),
-                            percent(k->total.wrong_cases, k->total.cases)));
+        svg.circle(p, best ? 5 : 4, best ? "dot front" : "dot",
+                   fmt::format("{}: {} ns, {} % wrong", k->kernel.name, brief_time(k->ns),
+                               percent(k->total.wrong_cases, k->total.cases)));
         if (best) labels.push_back({p, k->kernel.name.substr(k->kernel.name.find('.') + 1), "front"});
     }
     place_labels(svg, std::move(labels), axes.y.to);
@@ -80,8 +81,8 @@ std::string figure_of(const std::string& kind, const std::vector<const KernelRes
         return fmt::format("{} ({} ns, {} %)", k->kernel.name, brief_time(k->ns),
                            percent(k->total.wrong_cases, k->total.cases));
     });
-    return fmt::format("<figure><h3>{}</h3>{}<figcaption>Front: {}.</figcaption></figure>\n", html_escaped(kind),
-                       std::move(svg).finish(), html_escaped(text));
+    return fmt::format("<figure><h3>{}</h3>{}<figcaption>Front: {}.</figcaption></figure>\n", xml_escaped(kind),
+                       svg_markup(svg), xml_escaped(text));
 }
 
 /// Bars on a logarithmic axis, for few cases with large errors are what matters.
@@ -108,7 +109,7 @@ std::string error_histogram(const KernelResult& k) {
          {std::tuple(0.0, "0", "tick"), {3, "1e-16", "tick m"}, {11, "1e-8", "tick m"}, {19, "1", "tick m"}})
         svg.text({wide * bin, histogram_height - 4}, text, style);
     svg.text({histogram_width, histogram_height - 4}, "none", "tick e");
-    return std::move(svg).finish();
+    return svg_markup(svg);
 }
 
 std::string swatch(const io::Colour& c, std::string_view text) {
@@ -156,7 +157,7 @@ std::vector<SameSigns> grouped_pictures(const std::vector<const SignPicture*>& p
 
 std::string figure_of_signs(const SameSigns& group) {
     const bool exact = group.picture->kernel.empty();
-    const std::string names = html_escaped(fmt::format("{}", fmt::join(group.kernels, ", ")));
+    const std::string names = xml_escaped(fmt::format("{}", fmt::join(group.kernels, ", ")));
     const auto all = static_cast<std::uint64_t>(SignPicture::side) * SignPicture::side;
     const std::string caption =
         exact ? "<b>exact</b>" + (names.empty() ? "" : "; the same: " + names)
@@ -180,9 +181,11 @@ struct MapScale {
                 high = std::max(high, decade(e));
             }
         }
+        const ColourMap map = *colour_map("viridis");
         for (int d = low; d <= high; ++d) {
             const int span = std::max(high - low, 1);
-            colours.push_back(io::colour(io::colour_count - 1 - (io::colour_count - 1) * (d - low) / span));
+            const Rgba& c = map[static_cast<std::size_t>(255 - 255 * (d - low) / span)];
+            colours.push_back({c[0], c[1], c[2]});
         }
     }
 
@@ -214,7 +217,7 @@ std::string map_figure(const MeshMap& map, const MeshMap::OfKernel& k, const Map
     const std::string png = io::indexed_png(map.width, pixels, scale.colours).value();
     const auto worst = static_cast<std::size_t>(std::ranges::max_element(k.errors) - k.errors.begin());
     const double largest = k.errors[worst];
-    const std::string name = html_escaped(base::printable(k.kernel));
+    const std::string name = xml_escaped(base::printable(k.kernel));
     const std::string error =
         largest < 0           ? "given up"
         : largest == 0        ? "no error"
@@ -271,9 +274,9 @@ std::string map_figures(const AuditReport& r, const std::vector<MeshMap>& maps) 
             ? fmt::format(" Of {} of {} meshes: name others to see them.", maps.size(), r.meshes.size())
             : "");
     for (const MeshMap& map : maps) {
-        out += fmt::format("<h3>{}</h3>\n", html_escaped(base::printable(map.mesh)));
+        out += fmt::format("<h3>{}</h3>\n", xml_escaped(base::printable(map.mesh)));
         if (!map.why_not.empty()) {
-            out += fmt::format("<p>No map: {}</p>\n", html_escaped(map.why_not));
+            out += fmt::format("<p>No map: {}</p>\n", xml_escaped(map.why_not));
             continue;
         }
         const MapScale scale(map);
@@ -315,7 +318,7 @@ std::string error_histograms(const AuditReport& r) {
     for (const KernelResult& k : r.kernels) {
         if (k.total.errors.total() == 0) continue;
         out += fmt::format("<figure><figcaption>{}<br/><small>99 %: {}, largest {}</small></figcaption>{}</figure>\n",
-                           html_escaped(k.kernel.name), html_escaped(usual_error(k.total)),
+                           xml_escaped(k.kernel.name), xml_escaped(usual_error(k.total)),
                            brief(k.total.errors.worst.value), error_histogram(k));
     }
     return out + "</div>\n";

@@ -1,10 +1,10 @@
 // What a check of a mesh found, for people.
 
+#include "barycert/draw/picture.hpp"
 #include "barycert/io/png/png_file.hpp"
 #include "barycert/report/check/check_pictures.hpp"
 #include "barycert/report/check/check_words.hpp"
 #include "barycert/report/common/document.hpp"
-#include "barycert/report/common/picture.hpp"
 
 namespace barycert {
 

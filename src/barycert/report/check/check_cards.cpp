@@ -4,8 +4,8 @@
 #include <limits>
 
 #include "barycert/base/finite.hpp"
+#include "barycert/draw/picture.hpp"
 #include "barycert/report/check/check_pictures.hpp"
-#include "barycert/report/common/picture.hpp"
 
 namespace barycert::report {
 namespace {
@@ -131,15 +131,15 @@ std::string draw(const Scene& scene, const Shown& shown, double scale, const std
     }
     for (std::size_t i = 0; i < scene.points.size(); ++i) {
         const Pixel p = at(scene.points[i]);
-        svg.dot(p, 2.2, "node");
+        svg.circle(p, 2.2, "node");
         labels.push_back({p, std::to_string(scene.nodes[i]), "id"});
     }
     if (scene.common) {
-        svg.dot(at(*scene.common), 4, "witness", "common point");
+        svg.circle(at(*scene.common), 4, "witness", "common point");
         labels.push_back({at(*scene.common), "common point", "id bad"});
     }
     place_labels(svg, std::move(labels), top);
-    return std::move(svg).finish();
+    return svg_markup(svg);
 }
 
 /// The same for all views of a scene, so that they can be compared; one that is stretched has its own.
@@ -182,7 +182,7 @@ std::string exhibit_card(const CheckReport& r, const Mesh& mesh, const Exhibit& 
     const double scale = scale_of(views, scene);
     std::string out =
         fmt::format("<figure class=\"card\"><h3><span class=\"badge{}\">{}</span> {}</h3>\n<div class=\"views\">",
-                    e.defect ? " problem" : "", number, html_escaped(e.what));
+                    e.defect ? " problem" : "", number, xml_escaped(e.what));
     const bool pair = e.cells[1] >= 0;
     const auto cells = r.cell_number(e.cells);
     const std::string title =

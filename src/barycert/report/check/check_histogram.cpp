@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "barycert/draw/axes.hpp"
 #include "barycert/report/check/check_pictures.hpp"
 #include "barycert/report/check/check_words.hpp"
-#include "barycert/report/common/picture.hpp"
 
 namespace barycert::report {
 namespace {
@@ -37,8 +37,8 @@ void choose_bins(Histogram& h, double min, double max) {
 
 std::vector<Tick> ticks_of(const Histogram& h) {
     std::vector<Tick> ticks;
-    if (h.logarithmic && h.high() - h.low <= 3) return decade_ticks(h.low, h.high());
-    for (const double t : round_ticks(h.low, h.high(), 11)) {
+    if (h.logarithmic && h.high() - h.low <= 3) return log_ticks(h.low, h.high());
+    for (const double t : round_numbers(h.low, h.high(), 11)) {
         if (!h.logarithmic) ticks.push_back({t, fmt::format("{:.6g}", t)});
         if (h.logarithmic && t == std::floor(t)) ticks.push_back({t, "10" + superscript(t)});
     }
@@ -66,7 +66,7 @@ struct CountAxis : Axis {
         }
         logarithmic = min < std::floor(max / 100);
         if (logarithmic) title += ", logarithmic";
-        std::vector<double> at = logarithmic ? std::vector<double>{} : round_ticks(0, max, 6);
+        std::vector<double> at = logarithmic ? std::vector<double>{} : round_numbers(0, max, 6);
         for (double t = 1; logarithmic && t <= max; t *= 10) at.push_back(t);
         for (const double t : at) {
             if (t > 0 && t == std::floor(t)) ticks.push_back({height(t), brief_count(static_cast<std::uint64_t>(t))});
@@ -98,7 +98,7 @@ std::string chart(const Histogram& h, const Measure& m) {
                             h.counts[i] == 1 ? "cell" : "cells"));
         svg.text({at + wide / 2 + 3, y.from - tall - 3}, brief_count(h.counts[i]), "count", true);
     }
-    return std::move(svg).finish();
+    return svg_markup(svg);
 }
 
 std::string counted_apart(const Histogram& h, const Measure& m) {
@@ -194,10 +194,10 @@ std::string histograms(const CheckReport& r) {
     std::string out;
     for (const Measure& m : measures_of(r)) {
         const Histogram h = histogram(m.values, m.rule);
-        const std::string apart = html_escaped(counted_apart(h, m));
+        const std::string apart = xml_escaped(counted_apart(h, m));
         // An empty picture says nothing; what is counted apart does.
         const bool none = std::ranges::all_of(h.counts, [](std::uint64_t n) { return n == 0; });
-        out += none ? fmt::format("<p class=\"small\">{}: no cell in a bar. {}</p>\n", html_escaped(m.axis), apart)
+        out += none ? fmt::format("<p class=\"small\">{}: no cell in a bar. {}</p>\n", xml_escaped(m.axis), apart)
                     : fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n", chart(h, m), apart);
     }
     return "<div class=\"figures\">\n" + out + "</div>\n";

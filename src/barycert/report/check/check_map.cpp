@@ -4,10 +4,10 @@
 #include <algorithm>
 
 #include "barycert/base/arena.hpp"
+#include "barycert/draw/axes.hpp"
 #include "barycert/mesh/adjacency.hpp"
 #include "barycert/report/check/check_pictures.hpp"
 #include "barycert/report/check/check_words.hpp"
-#include "barycert/report/common/picture.hpp"
 
 namespace barycert::report {
 namespace {
@@ -264,7 +264,7 @@ std::string exhibit_map(const CheckReport& r, const Mesh& mesh, const std::vecto
     for (std::size_t i = exhibits.size(); i-- > 0;) {  // the first on top
         const Exhibit& e = exhibits[i];
         const Pixel at = map.cell(e.cells[0]);
-        svg.dot(at, 4, e.defect ? "spot problem" : "spot", "cell " + cells_of(r, e, " and "));
+        svg.circle(at, 4, e.defect ? "spot problem" : "spot", "cell " + cells_of(r, e, " and "));
         labels.push_back({at, std::to_string(i + 1), e.defect ? "number bad" : "number"});
     }
     std::ranges::reverse(labels);
@@ -282,7 +282,7 @@ std::string exhibit_map(const CheckReport& r, const Mesh& mesh, const std::vecto
     return fmt::format(
         "<figure><div class=\"map\">{}<div>{}</div></div>\n"
         "<p class=\"small\">The box of the cells: {}. {}</p></figure>\n",
-        std::move(svg).finish(), legend(r, mesh, exhibits), extent(box, mesh.dimension), drawn);
+        svg_markup(svg), legend(r, mesh, exhibits), extent(box, mesh.dimension), drawn);
 }
 
 }  // namespace barycert::report

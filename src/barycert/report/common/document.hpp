@@ -7,10 +7,16 @@
 #include <initializer_list>
 
 #include "barycert/base/json_text.hpp"
+#include "barycert/draw/picture.hpp"
 #include "barycert/report/common/json.hpp"
 #include "barycert/report/common/terminal_text.hpp"
 
 namespace barycert::report {
+
+using namespace draw;
+
+/// A name of words and dots: escaped, and where lines are short broken behind dots, not within words.
+std::string html_name(std::string_view name);
 
 enum class Tone : std::uint8_t { plain, good, bad, strong, soft };
 

@@ -1,45 +1,13 @@
 // Documents as pages of HTML.
 
 #include "barycert/report/common/document.hpp"
-#include "barycert/report/common/picture.hpp"
 
 namespace barycert::report {
 
-std::string html_escaped(std::string_view text) {
-    std::string out;
-    while (!text.empty()) {
-        const std::size_t size = base::first_character(text).size;
-        const char c = text.front();
-        const bool control = static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
-        out += size == 0  ? "\xef\xbf\xbd"
-               : c == '&' ? "&amp;"
-               : c == '<' ? "&lt;"
-               : c == '>' ? "&gt;"
-               : c == '"' ? "&quot;"
-               : control  ? " "
-                          : text.substr(0, size);
-        text.remove_prefix(std::max<std::size_t>(size, 1));
-    }
-    return out;
-}
-
 std::string html_name(std::string_view name) {
-    std::string out = html_escaped(name);
+    std::string out = xml_escaped(name);
     for (std::size_t dot = out.find('.'); dot < out.size() - 1; dot = out.find('.', dot + 1))
         out.insert(dot + 1, "<wbr/>");
-    return out;
-}
-
-std::string data_uri(std::string_view type, std::string_view bytes) {
-    constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string out = fmt::format("data:{};base64,", type);
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        const std::size_t left = bytes.size() - i;
-        std::uint32_t group = 0;
-        for (std::size_t k = 0; k < 3; ++k)
-            group = group << 8 | (k < left ? static_cast<unsigned char>(bytes[i + k]) : 0U);
-        for (std::size_t k = 0; k < 4; ++k) out += k > left ? '=' : digits[group >> (18 - 6 * k) & 63U];
-    }
     return out;
 }
 
@@ -195,7 +163,7 @@ constexpr std::size_t max_places = 12;
 
 /// ` name="value"`, or nothing.
 std::string attribute(std::string_view name, std::string_view value) {
-    return value.empty() ? "" : fmt::format(" {}=\"{}\"", name, html_escaped(value));
+    return value.empty() ? "" : fmt::format(" {}=\"{}\"", name, xml_escaped(value));
 }
 
 std::string paragraph(const std::string& markup, std::string_view style = {}) {
@@ -204,7 +172,7 @@ std::string paragraph(const std::string& markup, std::string_view style = {}) {
 
 /// Of a line: a command is to be copied.
 std::string words(const std::string& text, bool command) {
-    return command ? "<code class=\"copy\">" + html_escaped(text) + "</code>" : html_escaped(text);
+    return command ? "<code class=\"copy\">" + xml_escaped(text) + "</code>" : xml_escaped(text);
 }
 
 std::string_view by_tone(const std::array<const char*, 5>& classes, Tone tone) {
@@ -218,21 +186,21 @@ struct PageWriter {
         std::string text = h.text;
         if (!h.subject.empty() && text.front() >= 'a' && text.front() <= 'z') text.front() -= 'a' - 'A';
         constexpr std::array classes{"told", "good", "bad", "told", "told"};
-        out += fmt::format("<section class=\"verdict {}\"><b>{}</b>", by_tone(classes, h.tone), html_escaped(text));
-        if (h.reasons.size() == 1) out += paragraph(html_escaped(h.reasons[0]) + ".");
+        out += fmt::format("<section class=\"verdict {}\"><b>{}</b>", by_tone(classes, h.tone), xml_escaped(text));
+        if (h.reasons.size() == 1) out += paragraph(xml_escaped(h.reasons[0]) + ".");
         if (h.reasons.size() > 1)
-            out += "<ul>" + joined(h.reasons, "", [](const auto& r) { return "<li>" + html_escaped(r) + "</li>"; }) +
+            out += "<ul>" + joined(h.reasons, "", [](const auto& r) { return "<li>" + xml_escaped(r) + "</li>"; }) +
                    "</ul>";
-        for (const std::string& s : h.sentences) out += paragraph(html_escaped(s));
+        for (const std::string& s : h.sentences) out += paragraph(xml_escaped(s));
         out += "</section>\n";
     }
 
     void operator()(const Section& s) {
-        if (!s.title.empty()) out += fmt::format("<h{0}>{1}</h{0}>\n", s.level, html_escaped(s.title));
+        if (!s.title.empty()) out += fmt::format("<h{0}>{1}</h{0}>\n", s.level, xml_escaped(s.title));
     }
 
     void operator()(const Paragraph& p) {
-        const std::string text = html_escaped(p.text);
+        const std::string text = xml_escaped(p.text);
         constexpr std::array classes{"", "", "bad", "", "small"};
         out += paragraph(p.tone == Tone::strong ? "<b>" + text + "</b>" : text, by_tone(classes, p.tone));
     }
@@ -240,7 +208,7 @@ struct PageWriter {
     void operator()(const Named& n) {
         const std::string lines =
             joined(n.lines, "<br/>", [&](const std::string& line) { return words(line, n.command); });
-        out += fmt::format("<dt>{}</dt><dd>{}</dd>\n", html_escaped(n.name),
+        out += fmt::format("<dt>{}</dt><dd>{}</dd>\n", xml_escaped(n.name),
                            n.tone == Tone::strong || n.tone == Tone::bad ? "<b>" + lines + "</b>" : lines);
     }
 
@@ -264,13 +232,13 @@ struct PageWriter {
     }
 
     void operator()(const Item& item) {
-        out += "<div class=\"card\">" + paragraph("<b>" + html_escaped(item.title) + "</b>" + html_escaped(item.text));
+        out += "<div class=\"card\">" + paragraph("<b>" + xml_escaped(item.title) + "</b>" + xml_escaped(item.text));
         for (const Item::Line& line : item.lines) {
             if (!line.text.empty()) out += paragraph(words(line.text, line.command));
             const std::span shown = std::span(line.places.shown).first(std::min(line.places.shown.size(), max_places));
             std::string places = fmt::format("{}", fmt::join(shown, std::string{line.places.between, ' '}));
             if (const std::string more = line.places.more(shown.size()); !more.empty()) places += "; " + more;
-            if (!places.empty()) out += paragraph(html_escaped(places), "small");
+            if (!places.empty()) out += paragraph(xml_escaped(places), "small");
         }
         out += "</div>\n";
     }
@@ -279,7 +247,7 @@ struct PageWriter {
         out += "<table class=\"bars\">\n";
         for (const Bars::Bar& bar : b.bars)
             out += fmt::format("<tr><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"w\">{}</td></tr>\n",
-                               html_escaped(bar.label), bar.count,
+                               xml_escaped(bar.label), bar.count,
                                bar.count == 0 ? ""
                                               : fmt::format("<span class=\"bar{}\" style=\"width:{:.2f}%\"></span>",
                                                             bar.bad ? " bad" : "", 100 * b.share(bar)));
@@ -296,11 +264,11 @@ struct PageWriter {
 
     /// Flags begin with hyphens, at which lines would be broken.
     static std::string unbroken_words(const std::string& text) {
-        if (text.find(" -") == std::string::npos) return html_escaped(text);
+        if (text.find(" -") == std::string::npos) return xml_escaped(text);
         std::string out;
         for (std::size_t at = 0; at < text.size();) {
             const std::size_t end = std::min(text.find(' ', at), text.size());
-            out += fmt::format("{}<span>{}</span>", at == 0 ? "" : " ", html_escaped(text.substr(at, end - at)));
+            out += fmt::format("{}<span>{}</span>", at == 0 ? "" : " ", xml_escaped(text.substr(at, end - at)));
             at = end + 1;
         }
         return out;
@@ -309,7 +277,7 @@ struct PageWriter {
     static std::string cell(const Listing& t, const Row& row, std::size_t i) {
         const Column& column = t.columns[i];
         const Cell& c = row.cells[i];
-        const std::string text = t.sorts && column.left ? html_name(c.text) : html_escaped(c.text);
+        const std::string text = t.sorts && column.left ? html_name(c.text) : xml_escaped(c.text);
         if (t.sorts && i == 0) return fmt::format("<th scope=\"row\"{}>{}</th>", attribute("title", row.tip), text);
         const Tone tone = c.tone != Tone::plain ? c.tone : t.sorts || column.left ? Tone::plain : row.tone;
         constexpr std::array classes{"", " ok", " bad", "", ""};
@@ -353,7 +321,7 @@ std::string page_text(const Document& d) {
         "'unsafe-inline'; script-src 'unsafe-inline'\"/>\n"
         "<title>{}</title>\n<style>{}{}</style></head>\n<body><main>\n<h1>{}</h1>\n{}</main>\n<footer>{}</footer>\n"
         "{}{}{}</body></html>\n",
-        html_escaped(d.title), page_style, d.style, html_escaped(d.heading), writer.out, html_escaped(d.footer),
+        xml_escaped(d.title), page_style, d.style, xml_escaped(d.heading), writer.out, xml_escaped(d.footer),
         d.script ? "<script>" : "", d.script ? page_script : "", d.script ? "</script>\n" : "");
 }
 

@@ -1,0 +1,379 @@
+#include "barycert/draw/view.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "barycert/base/arena.hpp"
+#include "barycert/base/strict_math.hpp"
+#include "barycert/base/text.hpp"
+#include "barycert/base/vectors.hpp"
+#include "barycert/raster/colour_bytes.hpp"
+
+namespace barycert::draw {
+namespace {
+
+using base::cross, base::dot, base::minus;
+
+constexpr double fovy = 30;  ///< degrees
+constexpr double ambient = 0.35;
+
+/// f(point) of all that a figure draws: corners of triangles, ends of lines, where arrows begin.
+template <class F>
+void for_points(const Figure& figure, F f) {
+    const auto d = static_cast<std::size_t>(figure.dimension);
+    for (const FigureSurface& s : figure.surfaces)
+        for (const std::int32_t i : s.triangles) f(s.points.data() + d * static_cast<std::size_t>(i));
+    for (const FigureLines& l : figure.lines)
+        for (const std::int32_t i : l.segments) f(l.points.data() + d * static_cast<std::size_t>(i));
+    for (const FigureArrows& a : figure.arrows)
+        for (std::size_t i = 0; i < a.points.size(); i += d) f(a.points.data() + i);
+}
+
+/// The camera that sees all points, in perspective, as near as the window allows; or in parallel.
+Matrix4 fitting_camera(const Figure& figure, const Space& space, const ViewAxes& axes, double aspect, double part) {
+    std::array<Range, 3> along;
+    const std::array<Vector3, 3> directions{axes.right, axes.up, axes.towards};
+    for_points(figure, [&](const double* p) {
+        const Vector3 at = space(p);
+        for (std::size_t k = 0; k < 3; ++k) along[k].add(dot(directions[k], at));
+    });
+    if (along[0].empty()) along = {Range{0, 0}, Range{0, 0}, Range{0, 0}};
+    const auto& [x, y, z] = along;
+    const auto& [r, u, t] = axes;
+    const FigureCamera& camera = figure.options.camera;
+    Matrix4 projection;
+    double distance = z.high + 0.1;
+    if (camera.parallel) {
+        double half = std::max(x.half() / aspect, y.half()) / part;
+        if (!(half > 0)) half = 1;
+        const double near = distance - z.high, far = distance - z.low;
+        projection = orthographic(-half * aspect, half * aspect, -half, half, 0.9 * near, 1.1 * far).value();
+    } else {
+        const double tangent = part * std::tan(0.5 * fovy * (std::numbers::pi / 180));
+        // A point is in sight if its distance across is at most its distance along times the tangent.
+        for_points(figure, [&](const double* p) {
+            const Vector3 at = space(p);
+            const double across =
+                std::max(std::abs(dot(r, at) - x.middle()) / aspect, std::abs(dot(u, at) - y.middle()));
+            distance = std::max(distance, dot(t, at) + across / tangent);
+        });
+        // No error can occur: 0 < near <= far, and points lie in a box of side 2.
+        projection = perspective(fovy, aspect, 0.9 * (distance - z.high), 1.1 * (distance - z.low)).value();
+    }
+    const Matrix4 view{{r[0], r[1], r[2], -x.middle(),  //
+                        u[0], u[1], u[2], -y.middle(),  //
+                        t[0], t[1], t[2], -distance,    //
+                        0, 0, 0, 1}};
+    return scaling({camera.zoom, camera.zoom, 1}) * projection * view;
+}
+
+/// From above, without perspective.
+Matrix4 fitting_map(const Space& space, double aspect, double part, double zoom) {
+    std::array<Range, 2> range;
+    for (std::size_t k = 0; k < 2; ++k) {
+        const Range& box = space.box[k];
+        const double side = box.empty() ? 0 : box.half() / space.half;
+        range[k] = {-side, side};
+    }
+    double half = std::max(range[0].half() / aspect, range[1].half()) / part / zoom;
+    if (!(half > 0)) half = 1;
+    // No error can occur: half is above 0.
+    return orthographic(-half * aspect, half * aspect, -half, half, -1, 1).value();
+}
+
+/// How bright a triangle is: two-sided, from 0.35 to 1.
+double brightness(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& light) {
+    const Vector3 n = cross(minus(b, a), minus(c, a));
+    const double length = std::sqrt(dot(n, n));
+    if (!(length > 0)) return 1;
+    return ambient + (1 - ambient) * std::min(1.0, std::abs(dot(n, light)) / length);
+}
+
+/// From the upper left behind the viewer.
+Vector3 light_of(const ViewAxes& axes) {
+    Vector3 light;
+    for (std::size_t k = 0; k < 3; ++k) light[k] = axes.towards[k] + 0.5 * axes.up[k] - 0.4 * axes.right[k];
+    const double length = std::sqrt(dot(light, light));
+    for (double& x : light) x /= length;
+    return light;
+}
+
+/// The colour of a triangle: of its values at the corners, or its own.
+struct Paint {
+    Rgba colour;
+    float shade;
+    bool by_value;
+};
+
+/// All that is drawn, by normalised points.
+class Parts {
+public:
+    Parts(const Figure& figure, const Space& space, const ViewAxes& axes, const ColourScale& scale)
+        : d_(static_cast<std::size_t>(figure.dimension)), space_(space), light_(light_of(axes)), scale_(scale) {
+        for (const FigureSurface& s : figure.surfaces) add(s);
+        for (const FigureArrows& a : figure.arrows) add(a);
+    }
+
+    std::vector<double> positions = {};  ///< x, y, z, 1
+    std::vector<double> values = {};     ///< of points, NaN where there is none
+    std::vector<std::int32_t> triangles = {};
+    std::vector<Paint> paints = {};
+    std::uint64_t without_value = 0;
+
+private:
+    void add_point(const Vector3& p, double value) {
+        positions.insert(positions.end(), {p[0], p[1], p[2], 1});
+        values.push_back(value);
+    }
+    Vector3 point(std::int32_t i) const {
+        const double* const p = &positions[4 * static_cast<std::size_t>(i)];
+        return {p[0], p[1], p[2]};
+    }
+    void add_triangle(const std::array<std::int32_t, 3>& corners, const std::optional<Rgba>& colour) {
+        triangles.insert(triangles.end(), corners.begin(), corners.end());
+        const double shade = d_ == 2 ? 1 : brightness(point(corners[0]), point(corners[1]), point(corners[2]), light_);
+        paints.push_back({colour.value_or(Rgba{}), static_cast<float>(shade), !colour});
+    }
+
+    void add(const FigureSurface& s) {
+        const auto first = static_cast<std::int32_t>(values.size());
+        for (std::size_t i = 0; i < s.points.size() / d_; ++i)
+            add_point(space_(s.points.data() + d_ * i), s.point_values.empty() ? 0 : s.point_values[i]);
+        for (std::size_t t = 0; t < s.triangles.size(); t += 3) {
+            std::array<std::int32_t, 3> corners{};
+            bool finite = true;
+            for (std::size_t c = 0; c < 3; ++c) {
+                corners[c] = first + s.triangles[t + c];
+                finite = finite && std::isfinite(values[static_cast<std::size_t>(corners[c])]);
+            }
+            std::optional<Rgba> colour;
+            if (!s.triangle_values.empty()) {
+                finite = std::isfinite(s.triangle_values[t / 3]);
+                colour = scale_(s.triangle_values[t / 3]);
+            } else if (s.point_values.empty()) {
+                colour = s.colour;
+            }
+            if (!finite) colour = scale_.no_value;
+            without_value += finite ? 0 : 1;
+            add_triangle(corners, colour);
+        }
+    }
+
+    /// A shaft and a head of some sides; in the plane both are flat.
+    void add(const FigureArrows& a) {
+        double most = 0;
+        for (std::size_t i = 0; i < a.vectors.size(); i += d_) most = std::max(most, length_of(a.vectors.data() + i));
+        for (std::size_t i = 0; most > 0 && i < a.points.size(); i += d_) {
+            const double* const v = a.vectors.data() + i;
+            const double length = length_of(v) / most * a.longest / space_.half;
+            if (!(length > 0)) continue;
+            const Rgba colour = a.values.empty() ? a.colour : scale_(a.values[i / d_]);
+            Vector3 along{};
+            for (std::size_t k = 0; k < d_; ++k) along[k] = v[k] / length_of(v);
+            add_arrow(space_(a.points.data() + i), along, length, colour);
+        }
+    }
+    double length_of(const double* v) const {
+        double sum = 0;
+        for (std::size_t k = 0; k < d_; ++k) sum += v[k] * v[k];
+        return std::sqrt(sum);
+    }
+
+    void add_arrow(const Vector3& from, const Vector3& along, double length, Rgba colour) {
+        constexpr std::size_t sides = 10;
+        const std::size_t k = std::fabs(along[0]) < 0.6 ? 0 : 1;
+        Vector3 other{};
+        other[d_ == 2 ? 2 : k] = 1;
+        Vector3 across = cross(along, other);
+        const double norm = std::sqrt(dot(across, across));
+        for (double& x : across) x /= norm;
+        const Vector3 third = cross(along, across);
+        const auto ring = [&](double at, double radius) {
+            const auto first = static_cast<std::int32_t>(values.size());
+            for (std::size_t i = 0; i < sides; ++i) {
+                // In the plane the first and the middle one, on both sides.
+                const double turn = 2 * std::numbers::pi * static_cast<double>(i) / sides;
+                const double c = d_ == 2 ? (i < sides / 2 ? 1 : -1) : std::cos(turn), s = d_ == 2 ? 0 : std::sin(turn);
+                Vector3 p;
+                for (std::size_t j = 0; j < 3; ++j)
+                    p[j] = from[j] + length * (at * along[j] + radius * (c * across[j] + s * third[j]));
+                add_point(p, 0);
+            }
+            return first;
+        };
+        const auto between = [&](std::int32_t a, std::int32_t b) {
+            for (std::size_t i = 0; i < sides; ++i) {
+                const auto j = static_cast<std::int32_t>(i), n = static_cast<std::int32_t>((i + 1) % sides);
+                add_triangle({a + j, a + n, b + n}, colour);
+                add_triangle({a + j, b + n, b + j}, colour);
+            }
+        };
+        const std::int32_t tail = ring(0, 0.03), neck = ring(0.7, 0.03), wide = ring(0.7, 0.09), tip = ring(1, 0);
+        between(tail, neck);
+        between(neck, wide);
+        between(wide, tip);
+    }
+
+    std::size_t d_;
+    const Space& space_;
+    Vector3 light_;
+    const ColourScale& scale_;
+};
+
+std::vector<double> in_clip_space(std::span<const double> positions, const Matrix4& m) {
+    std::vector<double> clip(positions.size());
+    base::parallel_for_each(positions.size() / 4, std::size_t{1} << 14, [&](std::size_t i) {
+        const double* const p = positions.data() + 4 * i;
+        for (std::size_t r = 0; r < 4; ++r) {
+            const double* const row = m.m.data() + 4 * r;
+            clip[4 * i + r] = row[0] * p[0] + row[1] * p[1] + row[2] * p[2] + row[3] * p[3];
+        }
+    });
+    return clip;
+}
+
+}  // namespace
+
+Space::Space(const Figure& figure) : dimension(static_cast<std::size_t>(figure.dimension)) {
+    for_points(figure, [&](const double* p) {
+        for (std::size_t k = 0; k < dimension; ++k) box[k].add(p[k]);
+    });
+    double most = 0;
+    for (const Range& r : box) most = std::max(most, r.empty() ? 0 : r.half());
+    if (most > 0) half = most;
+}
+
+ViewAxes::ViewAxes(const FigureCamera& camera) {
+    constexpr double degree = std::numbers::pi / 180;
+    const double a = std::fmod(camera.azimuth, 360) * degree, e = std::fmod(camera.elevation, 360) * degree;
+    const double ca = std::cos(a), sa = std::sin(a), ce = std::cos(e), se = std::sin(e);
+    right = {-sa, ca, 0};
+    up = {-se * ca, -se * sa, ce};
+    towards = {ce * ca, ce * sa, se};
+}
+
+View::View(const Figure& figure, RasterSize window, double part)
+    : figure_(figure), window_(window), space_(figure), axes_(figure.options.camera) {
+    const double aspect = 1.0 * window.width / window.height;
+    to_clip_ = figure.dimension == 2 ? fitting_map(space_, aspect, part, figure.options.camera.zoom)
+                                     : fitting_camera(figure, space_, axes_, aspect, part);
+}
+
+Pixel View::at(const Vector3& point) const {
+    const Vector3 n = space_(point.data());
+    const auto row = [&](std::size_t r) {
+        const double* const m = &to_clip_.m[4 * r];
+        return m[0] * n[0] + m[1] * n[1] + m[2] * n[2] + m[3];
+    };
+    const double w = row(3);
+    return {(row(0) / w + 1) * 0.5 * window_.width, (1 - row(1) / w) * 0.5 * window_.height};
+}
+
+std::array<double, 2> View::seen(std::size_t axis) const {
+    const double half = space_.half / to_clip_.m[5 * axis], middle = space_.box[axis].middle();
+    return {middle - half, middle + half};
+}
+
+Image View::draw(const ColourScale& scale, std::span<const FigureLines> extra, FigureCounts& counts) const {
+    const Parts parts(figure_, space_, axes_, scale);
+    const FigureOptions& o = figure_.options;
+    std::vector<raster::Line> lines;
+    const auto add = [&](const FigureLines& of) {
+        const std::size_t d = space_.dimension;
+        for (std::size_t i = 0; i + 1 < of.segments.size(); i += 2) {
+            raster::Line& line = lines.emplace_back();
+            line.width = of.width * o.resolution;
+            line.colour = of.colour;
+            for (std::size_t k = 0; k < 2; ++k) {
+                const Vector3 p = space_(of.points.data() + d * static_cast<std::size_t>(of.segments[i + k]));
+                const std::vector<double> at = in_clip_space(std::array{p[0], p[1], p[2], 1.0}, to_clip_);
+                std::copy_n(at.data(), 4, line.ends[k].data());
+            }
+        }
+    };
+    for (const FigureLines& l : figure_.lines) add(l);
+    for (const FigureLines& l : extra) add(l);
+    const std::vector<double> clip = in_clip_space(parts.positions, to_clip_);
+    const bool by_value = std::ranges::any_of(parts.paints, &Paint::by_value);
+    raster::Layers layers{.size = window_,
+                          .samples = o.samples,
+                          .background = o.background,
+                          .clip = clip,
+                          .triangles = parts.triangles,
+                          .numbers = by_value ? 1U : 0U,
+                          .method = o.method,
+                          .rounding = o.rounding,
+                          .lines = lines};
+    layers.number = [&](std::size_t vertex, double* to) {
+        // A triangle with a value that is not finite has a colour of its own.
+        *to = std::isfinite(parts.values[vertex]) ? parts.values[vertex] : 0;
+    };
+    layers.colour = [&](const double* numbers, std::size_t triangle) {
+        const Paint& paint = parts.paints[triangle];
+        const Rgba full = paint.by_value ? scale(numbers[0]) : paint.colour;
+        if (paint.shade == 1) return full;
+        Rgba out = full;
+        for (std::size_t k = 0; k < 3; ++k) out[k] = raster::component_byte(double{paint.shade} * (full[k] / 255.0));
+        return out;
+    };
+    counts.without_value = parts.without_value;
+    return raster::draw(layers, counts.render);
+}
+
+Result<ColourScale> scale_of(const Figure& figure, FigureCounts& counts) {
+    const FigureOptions& o = figure.options;
+    ColourScale scale;
+    const auto map = colour_map(o.colour_map);
+    if (!map)
+        return file_error({}, "no such map of colours",
+                          fmt::format("{}, perhaps with _r", fmt::join(colour_map_names(), ", ")),
+                          '"' + o.colour_map + '"');
+    scale.map = *map;
+    scale.log = o.log;
+    const auto for_values = [&](auto f) {
+        for (const FigureSurface& s : figure.surfaces) {
+            for (const std::int32_t i : s.triangles)
+                if (!s.point_values.empty()) f(s.point_values[static_cast<std::size_t>(i)]);
+            for (const double x : s.triangle_values) f(x);
+        }
+        for (const FigureArrows& a : figure.arrows)
+            for (const double x : a.values) f(x);
+        for (std::size_t i = 0; figure.grid && i < figure.grid->values.size(); ++i)
+            if (is_drawn(*figure.grid, false, i)) f(figure.grid->values[i]);
+    };
+    const auto counts_for = [&](double x) { return std::isfinite(x) && (!o.log || x > 0); };
+    Range range;
+    constexpr std::size_t most_labels = 12;
+    for_values([&](double x) {
+        if (!counts_for(x)) return;
+        range.add(x);
+        const auto at = std::ranges::lower_bound(scale.labels, x);
+        if (o.labels && scale.labels.size() <= most_labels && (at == scale.labels.end() || *at != x))
+            scale.labels.insert(at, x);
+    });
+    if (scale.labels.size() > most_labels)
+        return file_error({}, "too many labels", fmt::format("at most {} values that differ", most_labels), "more",
+                          "draw it without labels");
+    if (o.range) range = {o.range->first, o.range->second};
+    if (o.log && !range.empty() && !(range.low > 0))
+        return file_error({}, "the range of logarithmic colours", "two numbers above 0", base::shortest(range.low));
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    // A zero may come with either sign: the bar says 0.
+    scale.low = counts.low = range.empty() ? nan : range.low + 0.0;
+    scale.high = counts.high = range.empty() ? nan : range.high + 0.0;
+    for_values([&](double x) {
+        if (counts_for(x) && x < scale.low) ++counts.below;
+        if (counts_for(x) && x > scale.high) ++counts.above;
+    });
+    if (!figure.grid) return scale;
+    GridCounts& of_grid =
+        counts.grid = {.below = counts.below, .above = counts.above, .low = scale.low, .high = scale.high};
+    for (std::size_t i = 0; i < figure.grid->values.size(); ++i) {
+        const bool valid = figure.grid->valid.empty() || figure.grid->valid[i] != 0;
+        ++(is_drawn(*figure.grid, o.log, i) ? of_grid.drawn : valid ? of_grid.not_finite : of_grid.outside);
+    }
+    return scale;
+}
+
+}  // namespace barycert::draw

@@ -1,0 +1,128 @@
+/// Pictures for people: surfaces, lines and arrows in colours of values, seen by a camera, with axes, a colour bar and
+/// a title, as .png, .svg or .pdf.
+///
+/// A surface is drawn by scene.hpp's rules. Lines are as wide everywhere, and hidden where a surface is before them.
+/// Surfaces in space are lit: their colour is multiplied by 0.35 to 1; light falls from the upper left behind the
+/// viewer, on both sides of a triangle (Lambert). Those in the plane are drawn from above, without light, on axes of
+/// one scale.
+#pragma once
+
+#include "barycert/scene.hpp"
+
+namespace barycert {
+
+/// Triangles, by their points.
+struct FigureSurface {
+    std::span<const double> points = {};           ///< coordinates in any unit, finite: dimension of the figure each
+    std::span<const std::int32_t> triangles = {};  ///< three points each
+    std::span<const double> point_values = {};     ///< one a point, or ...
+    std::span<const double> triangle_values = {};  ///< ... one a triangle, or neither: `colour`. NaN or infinite: none
+    Rgba colour{200, 204, 208, 255};               ///< without values
+};
+
+/// Segments between points.
+struct FigureLines {
+    std::span<const double> points = {};
+    std::span<const std::int32_t> segments = {};  ///< two points each
+    double width = 1;                             ///< pixels
+    Rgba colour{40, 40, 40, 255};
+};
+
+/// Arrows, which begin at points; the longest is as long as `longest`, in the unit of coordinates.
+struct FigureArrows {
+    std::span<const double> points = {}, vectors = {};  ///< dimension numbers each
+    std::span<const double> values = {};                ///< their colours: one each, or none
+    double longest = 0;
+    Rgba colour{40, 40, 40, 255};
+};
+
+/// Values on a grid in the plane, drawn as one pixel each; where columns and lines lie differently far apart, they are
+/// repeated. The figure is as large as that and what is beside it.
+struct FigureGrid {
+    std::size_t width = 0, height = 0;
+    std::span<const double> values = {};       ///< width * height, line after line, upwards
+    std::span<const std::uint8_t> valid = {};  ///< empty, or one a value: 0 where there is none (outside)
+    std::array<double, 2> origin{0, 0};        ///< where the first value is
+    std::array<double, 2> spacing{1, 1};       ///< of columns and lines, above 0
+};
+
+enum class Axes : std::uint8_t { automatic, box, triad, none };
+
+/// Where it stands: the whole is in sight.
+struct FigureCamera {
+    double azimuth = 30, elevation = 25;  ///< degrees, from the x axis towards y, and above the xy plane; z is upwards
+    double zoom = 1;                      ///< above 1: larger than the window
+    bool parallel = false;                ///< no perspective
+};
+
+/// "iso", "+x", "-x", ..., "-z": where the camera stands. Nothing if it is none of these.
+std::optional<FigureCamera> camera_of(std::string_view view);
+
+struct FigureOptions {
+    RasterSize size{800, 600};  ///< of the whole picture; of files of vectors in 96ths of an inch
+    /// Of what is seen in the plane, without axes, bar and title: then it is filled, and the whole is larger.
+    std::optional<RasterSize> window = {};
+    double scale = 0;                     ///< pixels for a unit of the plane, in place of `window`; 0: not given
+    double resolution = 1;                ///< pixels of a .png for one of `size`
+    int samples = 4;                      ///< see Scene
+    Rgba background{255, 255, 255, 255};  ///< where it is dark, text and axes are light; opacity 0: none
+    FigureCamera camera = {};
+    Axes axes = Axes::automatic;                      ///< in the plane axes, in space a triad
+    std::array<std::string, 2> axis_names{"x", "y"};  ///< in the plane; "-x": its numbers are those of x, negated
+    std::string title = {};
+
+    // Colours of values.
+    std::string colour_map = "viridis";                   ///< see colour_map_names
+    std::optional<std::pair<double, double>> range = {};  ///< without it, the least and the greatest of the values
+    bool log = false;                                     ///< by the logarithm: values above 0 alone
+    bool labels = false;                                  ///< a colour of its own for each value, 12 at most
+    bool bar = true;                                      ///< a colour bar to the right, if there are values
+    std::string bar_title = {};                           ///< the field, its component
+    std::string unit = {};                                ///< of its values
+    FillMethod method = FillMethod::barycentric;
+    Rounding rounding = Rounding::plain;
+};
+
+struct Figure {
+    int dimension = 3;  ///< or 2: the plane
+    std::vector<FigureSurface> surfaces = {};
+    std::vector<FigureLines> lines = {};
+    std::vector<FigureArrows> arrows = {};
+    std::optional<FigureGrid> grid = {};  ///< with no surface, and in the plane
+    FigureOptions options = {};
+};
+
+/// What became of the values of a grid.
+struct GridCounts {
+    std::uint64_t drawn = 0;       ///< with a colour
+    std::uint64_t below = 0;       ///< of these: below the range, drawn as its low end
+    std::uint64_t above = 0;       ///< of these: above it, drawn as its high end
+    std::uint64_t not_finite = 0;  ///< valid but NaN or infinite, or without a logarithm: the background
+    std::uint64_t outside = 0;     ///< not valid: the background
+    double low = 0, high = 0;      ///< the range; NaN if nothing is drawn and none was given
+};
+
+struct FigureCounts {
+    RenderCounts render;
+    double low = 0, high = 0;            ///< the range; NaN if there are no values
+    std::uint64_t without_value = 0;     ///< triangles drawn in grey, for a value of theirs is not finite
+    std::uint64_t below = 0, above = 0;  ///< values at corners, or of triangles, beyond the range
+    GridCounts grid;
+};
+
+/// matplotlib's: "viridis", "cividis", ...; with "_r" behind it the same from its other end.
+std::vector<std::string> colour_map_names();
+
+/// As large as it fits. Error: spans that do not fit together; an index, coordinate, angle or range that is not valid;
+/// a name that is none; a size that is refused, or leaves no room beside bar and axes.
+Result<Image> draw_figure(const Figure& figure, FigureCounts* counts = nullptr);
+
+/// True for the suffixes of write_figure: .png, .svg, .pdf.
+bool is_figure_name(std::string_view path);
+
+/// In .svg and .pdf text and axes are text and lines, and the rest an image of 300 dpi. A grid without bar, axes and
+/// title may have any size of up to a million pixels a side as .png: it is written line by line. Error: as draw_figure;
+/// the file cannot be written.
+Status write_figure(const std::string& path, const Figure& figure, FigureCounts* counts = nullptr);
+
+}  // namespace barycert

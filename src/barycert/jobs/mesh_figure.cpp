@@ -1,0 +1,383 @@
+#include "barycert/jobs/mesh_figure.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "barycert/base/strict_math.hpp"
+#include "barycert/base/vectors.hpp"
+#include "barycert/jobs/field_files.hpp"
+#include "barycert/jobs/job_files.hpp"
+#include "barycert/mesh/part.hpp"
+#include "barycert/mesh/pulling.hpp"
+#include "barycert/predicates.hpp"
+#include "barycert/raster.hpp"
+
+namespace barycert::jobs {
+namespace {
+
+using Vector = std::array<double, 3>;
+
+constexpr Rgba dark_grey{40, 40, 40, 255}, marked_red{200, 16, 46, 255};
+constexpr double thin = 0.7, thick = 1.4;
+
+/// Triangles with coordinates, and rows of numbers, of points that are added one by one.
+struct Growing {
+    Surface surface;
+    std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> new_points = {};
+};
+
+double height(const Plane& plane, const double* p) {
+    return plane.normal[0] * p[0] + plane.normal[1] * p[1] + plane.normal[2] * p[2];
+}
+
+/// The part of the surface with normal.x <= offset. Points on edges are those that a slice has there, to the bit.
+Surface behind(const Surface& whole, const Plane& plane) {
+    const HalfSpace half{{-plane.normal[0], -plane.normal[1], -plane.normal[2]}, plane.offset};
+    Surface out;
+    out.dimension = whole.dimension;
+    for (const Field& f : whole.point_fields) out.point_fields.push_back({f.name, f.components, {}});
+    for (const Field& f : whole.cell_fields) out.cell_fields.push_back({f.name, f.components, {}});
+    // Points by their ends; a point of the whole is both.
+    std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> numbers;
+    const auto row = [&](std::int32_t point) {
+        const auto i = static_cast<std::size_t>(point);
+        std::vector<double> all(whole.points.begin() + static_cast<std::ptrdiff_t>(3 * i),
+                                whole.points.begin() + static_cast<std::ptrdiff_t>(3 * i + 3));
+        for (const Field& f : whole.point_fields) all.push_back(f.data[i]);
+        return all;
+    };
+    const auto add = [&](std::int32_t a, std::int32_t b, const std::vector<double>& numbers_of) {
+        const auto [at, is_new] = numbers.try_emplace(std::minmax(a, b), static_cast<std::int32_t>(out.point_count()));
+        if (is_new) {
+            out.points.insert(out.points.end(), numbers_of.begin(), numbers_of.begin() + 3);
+            for (std::size_t k = 0; k < out.point_fields.size(); ++k)
+                out.point_fields[k].data.push_back(numbers_of[3 + k]);
+            out.mesh_edges.push_back(whole.mesh_edges[2 * static_cast<std::size_t>(a)]);
+            out.mesh_edges.push_back(whole.mesh_edges[2 * static_cast<std::size_t>(b) + (a == b ? 1 : 0)]);
+        }
+        return at->second;
+    };
+    for (std::size_t t = 0; t < whole.cell_count(); ++t) {
+        std::vector<std::int32_t> polygon;
+        for (std::size_t c = 0; c < 3; ++c) {
+            const std::int32_t a = whole.cells[3 * t + c], b = whole.cells[3 * t + (c + 1) % 3];
+            const std::vector<double> from = row(a), to = row(b);
+            const ClippedSegment kept = clip_segment(3, from, to, half).value();
+            if (kept.empty) continue;
+            if (!kept.new_a) polygon.push_back(add(a, a, from));
+            if (kept.new_a) polygon.push_back(add(a, b, kept.a));
+            if (kept.new_b) polygon.push_back(add(a, b, kept.b));
+        }
+        polygon.erase(std::unique(polygon.begin(), polygon.end()), polygon.end());
+        for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
+            out.cells.insert(out.cells.end(), {polygon[0], polygon[i], polygon[i + 1]});
+            out.mesh_cells.push_back(whole.mesh_cells[t]);
+            for (std::size_t k = 0; k < out.cell_fields.size(); ++k)
+                out.cell_fields[k].data.push_back(whole.cell_fields[k].data[t]);
+        }
+    }
+    return out;
+}
+
+Surface cells_of(const Mesh& mesh, const CutOptions& fields) {
+    Surface surface;
+    surface.points = mesh.points;
+    surface.cells = mesh.cells;
+    for (const Field* f : fields.point_fields) surface.point_fields.push_back(*f);
+    for (const Field* f : fields.cell_fields) surface.cell_fields.push_back(*f);
+    for (std::size_t i = 0; i < mesh.cell_count(); ++i) surface.mesh_cells.push_back(static_cast<Mesh::Index>(i));
+    for (std::size_t i = 0; i < mesh.point_count(); ++i)
+        surface.mesh_edges.insert(surface.mesh_edges.end(), 2, static_cast<Mesh::Index>(i));
+    return surface;
+}
+
+FigureSurface coloured(const Surface& s) {
+    FigureSurface out{.points = s.points, .triangles = s.cells};
+    if (!s.point_fields.empty()) {
+        out.point_values = s.point_fields.front().data;
+    } else if (!s.cell_fields.empty()) {
+        out.triangle_values = s.cell_fields.front().data;
+    }
+    return out;
+}
+
+}  // namespace
+
+/// An edge of a surface, by its points, and of which triangle.
+struct MeshFigure::Edge {
+    std::pair<std::int32_t, std::int32_t> points;
+    std::int32_t triangle;
+
+    friend bool operator<(const Edge& a, const Edge& b) {
+        return std::pair(a.points, a.triangle) < std::pair(b.points, b.triangle);
+    }
+};
+
+MeshFigure::MeshFigure(const Mesh& mesh, const SceneChoice& show, std::string colours, int threads, Notes& notes)
+    : mesh_(&mesh), show_(show), colours_(std::move(colours)), threads_(threads), notes_(notes) {
+    figure_.dimension = mesh.dimension;
+    choose_cells();
+}
+
+/// By threshold and box.
+void MeshFigure::choose_cells() {
+    const Mesh& mesh = *mesh_;
+    if (!show_.threshold && !show_.box) return;
+    std::vector<bool> kept(mesh.cell_count(), true);
+    const auto drop = [&](auto leaves_out) {
+        for (std::size_t i = 0; i < kept.size(); ++i) kept[i] = kept[i] && !leaves_out(i);
+    };
+    const std::size_t corners = mesh.corners(), d = static_cast<std::size_t>(mesh.dimension);
+    if (show_.threshold) {
+        const auto& [name, low, high] = *show_.threshold;
+        const FieldChoice of = field_of_numbers(mesh, name, made_, notes_);
+        const std::vector<double>& data = of.field->data;
+        const auto out = [&](double x) { return !(low <= x && x <= high); };
+        drop([&](std::size_t i) {
+            if (of.of_cells) return out(data[i]);
+            return std::any_of(&mesh.cells[corners * i], &mesh.cells[corners * i] + corners,
+                               [&](Mesh::Index node) { return out(data[static_cast<std::size_t>(node)]); });
+        });
+    }
+    if (show_.box) {
+        const auto& [low, high] = *show_.box;
+        drop([&](std::size_t i) {
+            return std::any_of(&mesh.cells[corners * i], &mesh.cells[corners * i] + corners, [&](Mesh::Index node) {
+                const double* const p = &mesh.points[d * static_cast<std::size_t>(node)];
+                bool inside = true;
+                for (std::size_t k = 0; k < d; ++k) inside = inside && low[k] < p[k] && p[k] < high[k];
+                return inside;
+            });
+        });
+    }
+    if (!mesh.cell_numbers.empty()) {
+        // A cell of several parts goes with the first that is left out.
+        std::vector<bool> whole(static_cast<std::size_t>(*std::ranges::max_element(mesh.cell_numbers)) + 1, true);
+        for (std::size_t i = 0; i < kept.size(); ++i)
+            if (!kept[i]) whole[static_cast<std::size_t>(mesh.cell_numbers[i])] = false;
+        drop([&](std::size_t i) { return !whole[static_cast<std::size_t>(mesh.cell_numbers[i])]; });
+    }
+    std::vector<Mesh::Index> cells;
+    for (std::size_t i = 0; i < kept.size(); ++i)
+        if (kept[i]) cells.push_back(static_cast<Mesh::Index>(i));
+    if (cells.empty()) refuse("", "no cell is left to draw", "a threshold or box that leaves some", "none");
+    mesh::Part part = mesh::part_of(mesh, std::move(cells));
+    chosen_ = std::move(part.mesh);
+    if (chosen_.cell_numbers.empty()) chosen_.cell_numbers = part.cells;
+    for (const Field& f : mesh.point_fields) chosen_.point_fields.push_back(mesh::rows_of(f, part.nodes));
+    for (const Field& f : mesh.cell_fields) chosen_.cell_fields.push_back(mesh::rows_of(f, part.cells));
+    mesh_ = &chosen_;
+}
+
+/// The field that colours.
+CutOptions MeshFigure::carried() {
+    CutOptions options{.threads = threads_};
+    if (colours_.empty()) return options;
+    const FieldChoice found = field_of_numbers(*mesh_, colours_, made_, notes_);
+    (found.of_cells ? options.cell_fields : options.point_fields).push_back(found.field);
+    return options;
+}
+
+void MeshFigure::add_mesh() {
+    const CutOptions options = carried();
+    const bool plane = mesh_->dimension == 2;
+    for (const auto& [given, what] : {std::pair(show_.plane.has_value(), "a plane that cuts open"),
+                                      {!show_.slices.empty(), "a slice"},
+                                      {!show_.iso.empty(), "an iso-surface"}})
+        if (given && plane) refuse("", std::string(what) + " is of meshes in space", "", "triangles in the plane");
+    for (const Plane& cut : show_.slices) add(slice(*mesh_, cut, options).value().surface);
+    if (!show_.iso.empty()) {
+        const FieldChoice of = field_of_numbers(*mesh_, show_.iso_field, made_, notes_);
+        if (of.of_cells) refuse("", "field \"" + show_.iso_field + "\" is one of cells", "a field of nodes", "");
+        CutOptions carries = options;
+        if (colours_.empty()) carries.point_fields.push_back(of.field);
+        for (const double value : show_.iso) add(isosurface(*mesh_, *of.field, value, carries).value().surface);
+    }
+    // Where something else is to be seen, the surface would hide it.
+    if (show_.surface && figure_.surfaces.empty() && show_.marked.empty()) {
+        Surface whole = plane ? cells_of(*mesh_, options) : boundary(*mesh_, options).value();
+        show_.plane ? add_cut_open(std::move(whole)) : add(std::move(whole));
+    }
+    if (!show_.marked.empty()) add_marked();
+    if (!show_.arrows.empty()) add_arrows();
+    if (show_.outline || !show_.marked.empty()) add_outline();
+    if (figure_.surfaces.empty() && figure_.lines.empty() && figure_.arrows.empty())
+        refuse("", "nothing to draw", "a surface, lines or arrows", "none of these");
+}
+
+void MeshFigure::add_cut_open(Surface whole) {
+    add(behind(whole, *show_.plane));
+    add(slice(*mesh_, *show_.plane, carried()).value().surface);
+}
+
+void MeshFigure::add(Surface surface) {
+    if (surface.cells.empty()) return;
+    const Surface& kept = surfaces_.emplace_back(std::move(surface));
+    figure_.surfaces.push_back(coloured(kept));
+    if (show_.edges) add_edges(kept);
+}
+
+void MeshFigure::add_section(Surface surface, const Vector& right, const Vector& up) {
+    std::vector<double> flat;
+    flat.reserve(surface.points.size() / 3 * 2);
+    for (std::size_t i = 0; i < surface.points.size(); i += 3) {
+        const Vector p{surface.points[i], surface.points[i + 1], surface.points[i + 2]};
+        flat.push_back(base::dot(p, right) + 0.0);
+        flat.push_back(base::dot(p, up) + 0.0);
+    }
+    figure_.dimension = 2;
+    surface.points = std::move(flat);
+    add(std::move(surface));
+}
+
+void MeshFigure::add_lines(const std::vector<double>& points, std::vector<std::int32_t> segments, double width,
+                           Rgba colour) {
+    if (segments.empty()) return;
+    figure_.lines.push_back({points, indices_.emplace_back(std::move(segments)), width, colour});
+}
+
+std::vector<MeshFigure::Edge> MeshFigure::edges_of(const Surface& surface) const {
+    std::vector<Edge> edges;
+    edges.reserve(surface.cells.size());
+    for (std::size_t t = 0; t < surface.cell_count(); ++t) {
+        for (std::size_t c = 0; c < 3; ++c)
+            edges.push_back({std::minmax(surface.cells[3 * t + c], surface.cells[3 * t + (c + 1) % 3]),
+                             static_cast<std::int32_t>(t)});
+    }
+    std::ranges::sort(edges, {}, [](const Edge& e) { return std::pair(e.points, e.triangle); });
+    return edges;
+}
+
+/// Not one that cuts a face of a cell in two, or lies in it. Of nodes.
+bool MeshFigure::is_cell_edge(Mesh::Index cell, Mesh::Index a, Mesh::Index b) const {
+    const auto& inside = mesh_->shapes.inside;
+    if (inside.empty()) return true;
+    const std::size_t corners = mesh_->corners();
+    unsigned zeros = 0;
+    for (std::size_t i = 0; i < corners; ++i) {
+        const Mesh::Index node = mesh_->cells[corners * static_cast<std::size_t>(cell) + i];
+        if (node != a && node != b) zeros |= 1U << i;
+    }
+    return mesh::feature_of_whole(inside[static_cast<std::size_t>(cell)], zeros, mesh_->dimension) == Feature::edge;
+}
+
+/// Those of cells, where the surface is a boundary; those where cells meet, where it cuts through them.
+void MeshFigure::add_edges(const Surface& surface) {
+    const std::vector<Edge> edges = edges_of(surface);
+    std::vector<std::int32_t> segments;
+    const auto node_of = [&](std::int32_t p) {
+        const auto i = 2 * static_cast<std::size_t>(p);
+        return surface.mesh_edges[i] == surface.mesh_edges[i + 1] ? surface.mesh_edges[i] : Mesh::Index{-1};
+    };
+    for (std::size_t i = 0; i < edges.size();) {
+        const std::size_t first = i;
+        while (i < edges.size() && edges[i].points == edges[first].points) ++i;
+        const auto cell_of = [&](std::size_t e) {
+            return surface.mesh_cells[static_cast<std::size_t>(edges[e].triangle)];
+        };
+        const auto [a, b] = edges[first].points;
+        const Mesh::Index u = node_of(a), v = node_of(b);
+        const bool same =
+            i - first == 2 && mesh_->cell_number(cell_of(first)) == mesh_->cell_number(cell_of(first + 1));
+        if (u >= 0 && v >= 0 ? !is_cell_edge(cell_of(first), u, v) : same) continue;
+        segments.insert(segments.end(), {a, b});
+    }
+    add_lines(figure_.dimension == 2 ? numbers_.emplace_back(surface.points) : surface.points, std::move(segments),
+              thin, dark_grey);
+}
+
+/// Where the boundary bends by 30 degrees or more; in the plane all of it.
+void MeshFigure::add_outline() {
+    const Surface& surface = surfaces_.emplace_back(boundary(*mesh_, {.threads = threads_}).value());
+    if (mesh_->dimension == 2) return add_lines(surface.points, surface.cells, thick, dark_grey);
+    const auto normal = [&](std::int32_t t) {
+        std::array<Vector, 3> p{};
+        for (std::size_t c = 0; c < 3; ++c)
+            for (std::size_t k = 0; k < 3; ++k)
+                p[c][k] =
+                    surface
+                        .points[3 * static_cast<std::size_t>(surface.cells[3 * static_cast<std::size_t>(t) + c]) + k];
+        const Vector n = base::cross(base::minus(p[1], p[0]), base::minus(p[2], p[0]));
+        const double length = std::sqrt(base::dot(n, n));
+        return length > 0 ? Vector{n[0] / length, n[1] / length, n[2] / length} : n;
+    };
+    constexpr double bend = 0.866;  // cosine of 30 degrees
+    const std::vector<Edge> edges = edges_of(surface);
+    std::vector<std::int32_t> segments;
+    for (std::size_t i = 0; i < edges.size();) {
+        const std::size_t first = i;
+        while (i < edges.size() && edges[i].points == edges[first].points) ++i;
+        if (i - first == 2 && base::dot(normal(edges[first].triangle), normal(edges[first + 1].triangle)) > bend)
+            continue;
+        segments.insert(segments.end(), {edges[first].points.first, edges[first].points.second});
+    }
+    add_lines(surface.points, std::move(segments), thick, dark_grey);
+}
+
+/// Cells by their numbers in the file, whole.
+void MeshFigure::add_marked() {
+    std::vector<Mesh::Index> cells;
+    for (std::size_t i = 0; i < mesh_->cell_count(); ++i) {
+        if (std::ranges::count(show_.marked, mesh_->cell_number(static_cast<Mesh::Index>(i))) != 0)
+            cells.push_back(static_cast<Mesh::Index>(i));
+    }
+    if (cells.empty())
+        refuse("", "no such cell to mark", fmt::format("numbers of cells, of which there are {}", mesh_->cell_count()),
+               fmt::format("{}", fmt::join(show_.marked, ", ")));
+    const Mesh part = mesh::part_of(*mesh_, std::move(cells)).mesh;
+    const Surface& surface = surfaces_.emplace_back(part.dimension == 3 ? boundary(part, {.threads = threads_}).value()
+                                                                        : cells_of(part, {}));
+    figure_.surfaces.push_back({.points = surface.points, .triangles = surface.cells, .colour = marked_red});
+}
+
+/// At points of what is drawn, or at nodes: one in each box of a grid.
+void MeshFigure::add_arrows() {
+    const auto d = static_cast<std::size_t>(mesh_->dimension);
+    const auto found = std::ranges::find(mesh_->point_fields, show_.arrows, &Field::name);
+    if (found == mesh_->point_fields.end() || static_cast<std::size_t>(found->components) != d)
+        refuse("", "arrows are of a field of nodes",
+               fmt::format("one of {} components: {}", d,
+                           base::joined(mesh_->point_fields, ", ",
+                                        [&](const Field& f) {
+                                            return static_cast<std::size_t>(f.components) == d ? f.name : std::string();
+                                        })),
+               '"' + show_.arrows + '"');
+    std::array<double, 3> low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+    for (std::size_t i = 0; i < mesh_->points.size(); ++i) {
+        low[i % d] = std::min(low[i % d], mesh_->points[i]);
+        high[i % d] = std::max(high[i % d], mesh_->points[i]);
+    }
+    double volume = 1, longest = 0;
+    for (std::size_t k = 0; k < d; ++k) longest = std::max(longest, high[k] - low[k]);
+    for (std::size_t k = 0; k < d; ++k) volume *= std::max(high[k] - low[k], longest / 1000);
+    const double side = std::pow(volume / static_cast<double>(show_.arrow_count), 1 / static_cast<double>(d));
+    // Of the points that a surface has, the nodes.
+    std::vector<std::size_t> nodes;
+    for (const Surface& s : surfaces_)
+        for (std::size_t i = 0; i < s.mesh_edges.size(); i += 2)
+            nodes.push_back(static_cast<std::size_t>(s.mesh_edges[i]));
+    for (std::size_t i = 0; surfaces_.empty() && i < mesh_->point_count(); ++i) nodes.push_back(i);
+    std::map<std::array<std::int64_t, 3>, std::size_t> boxes;
+    for (const std::size_t node : nodes) {
+        std::array<std::int64_t, 3> box{};
+        bool finite = true;
+        for (std::size_t k = 0; k < d; ++k) {
+            box[k] = static_cast<std::int64_t>(std::floor((mesh_->points[d * node + k] - low[k]) / side));
+            finite = finite && std::isfinite(found->data[d * node + k]);
+        }
+        if (finite) boxes.try_emplace(box, node);
+    }
+    std::vector<double>&points = numbers_.emplace_back(), &vectors = numbers_.emplace_back();
+    for (const auto& [box, node] : boxes) {
+        for (std::size_t k = 0; k < d; ++k) {
+            points.push_back(mesh_->points[d * node + k]);
+            vectors.push_back(found->data[d * node + k]);
+        }
+    }
+    figure_.arrows.push_back({.points = points, .vectors = vectors, .longest = 1.2 * side, .colour = dark_grey});
+}
+
+}  // namespace barycert::jobs

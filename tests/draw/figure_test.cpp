@@ -1,0 +1,315 @@
+// Figures: what the camera sees, colours, layout, files.
+#include "barycert/figure.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "barycert/base/random.hpp"
+#include "barycert/draw/colour_map.hpp"
+#include "io/tetgen/mesh_files.hpp"
+
+namespace barycert {
+namespace {
+
+using testing::TemporaryFolder;
+
+struct Shape {
+    std::vector<double> points;
+    std::vector<std::int32_t> triangles;
+
+    FigureSurface surface() const { return {.points = points, .triangles = triangles}; }
+};
+
+/// A tetrahedron of random size and place.
+Shape any_shape(base::Random& random) {
+    Shape s;
+    const double scale = random.scaled(0.5, 1, -200, 200);
+    const double x = random.uniform(-3, 3);
+    for (int i = 0; i < 12; ++i) s.points.push_back(scale * (x + random.uniform(-1, 1)));
+    s.triangles = {0, 1, 2, 0, 1, 3, 1, 2, 3, 2, 0, 3};
+    return s;
+}
+
+/// The window alone, a sample a pixel.
+Figure bare(const FigureSurface& surface, RasterSize size, int dimension = 3) {
+    Figure f{.dimension = dimension, .surfaces = {surface}};
+    f.options.size = size;
+    f.options.samples = 1;
+    f.options.axes = Axes::none;
+    f.options.bar = false;
+    return f;
+}
+
+/// Columns and rows that show something: first and last of each.
+std::array<std::int32_t, 4> extent(const Image& image, Rgba background) {
+    std::array<std::int32_t, 4> e{image.width, -1, image.height, -1};
+    for (std::int32_t j = 0; j < image.height; ++j) {
+        for (std::int32_t i = 0; i < image.width; ++i) {
+            if (image.pixel(i, j) == background) continue;
+            e = {std::min(e[0], i), std::max(e[1], i), std::min(e[2], j), std::max(e[3], j)};
+        }
+    }
+    return e;
+}
+
+TEST(Figure, TheCameraFits) {
+    base::Random random(1);
+    for (int k = 0; k < 200; ++k) {
+        const Shape s = any_shape(random);
+        Figure f = bare(s.surface(), {random.integer(60, 200), random.integer(60, 200)});
+        f.options.camera.azimuth = random.uniform(-400, 400);
+        f.options.camera.elevation = k % 10 == 0 ? 90 : random.uniform(-90, 90);
+        f.options.camera.parallel = k % 2 == 1;
+        FigureCounts counts;
+        const Image image = draw_figure(f, &counts).value();
+        ASSERT_EQ(counts.render.outside, 0U) << k;
+        ASSERT_EQ(counts.render.clipped, 0U) << k;
+        const std::array<std::int32_t, 4> e = extent(image, f.options.background);
+        ASSERT_GT(e[1], 0);
+        // Some margin on each side, but not on all sides a quarter of the window.
+        EXPECT_TRUE(e[0] > 0 && e[1] < image.width - 1 && e[2] > 0 && e[3] < image.height - 1) << k;
+        EXPECT_TRUE(e[1] - e[0] > image.width / 2 || e[3] - e[2] > image.height / 2) << k;
+    }
+}
+
+TEST(Figure, ScaleAndPlaceDoNotMatter) {
+    const std::vector<double> points{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+    const std::vector<std::int32_t> triangles{0, 1, 2, 0, 1, 3, 1, 2, 3, 2, 0, 3};
+    const auto drawn = [&](const std::vector<double>& at) {
+        Figure f = bare({.points = at, .triangles = triangles}, {80, 60});
+        f.options.samples = 4;
+        return draw_figure(f).value();
+    };
+    const Image first = drawn(points);
+    for (const double scale : {0x1p-900, 0x1p900, 0x1p1023, -1.0}) {
+        std::vector<double> scaled = points;
+        for (double& x : scaled) x = std::abs(scale) * x;
+        if (scale == -1) {
+            for (double& x : scaled) x += 4096;
+        }
+        EXPECT_EQ(drawn(scaled), first) << scale;
+    }
+    // From the largest negative to the largest positive numbers.
+    std::vector<double> widest = points;
+    for (double& x : widest) x = x == 0 ? -std::numeric_limits<double>::max() : std::numeric_limits<double>::max();
+    EXPECT_EQ(drawn(widest), first);
+}
+
+TEST(Figure, ViewsByName) {
+    // A box of sides 1, 2, 3: what is seen of it from each side.
+    std::vector<double> points;
+    for (unsigned i = 0; i < 8; ++i)
+        for (unsigned k = 0; k < 3; ++k) points.push_back((i >> k & 1U) != 0 ? k + 1.0 : 0.0);
+    const std::vector<std::int32_t> triangles{0, 1, 3, 0, 3, 2, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4,
+                                              2, 3, 7, 2, 7, 6, 0, 2, 6, 0, 6, 4, 1, 3, 7, 1, 7, 5};
+    for (const auto& [name, wide, tall] :
+         {std::tuple("+x", 2.0, 3.0), {"-x", 2, 3}, {"+y", 1, 3}, {"-y", 1, 3}, {"+z", 1, 2}, {"-z", 1, 2}}) {
+        Figure f = bare({.points = points, .triangles = triangles}, {300, 300});
+        f.options.camera = camera_of(name).value();
+        f.options.camera.parallel = true;
+        const auto e = extent(draw_figure(f).value(), f.options.background);
+        EXPECT_NEAR((e[1] - e[0] + 1.0) / (e[3] - e[2] + 1.0), wide / tall, 0.02) << name;
+        f.options.camera.zoom = 0.5;
+        const auto half = extent(draw_figure(f).value(), f.options.background);
+        EXPECT_NEAR(half[3] - half[2], (e[3] - e[2]) / 2, 2) << name;
+    }
+    EXPECT_FALSE(camera_of("x"));
+    EXPECT_TRUE(camera_of("iso"));
+}
+
+TEST(Figure, ColoursAreThoseOfTheMap) {
+    // From above, so that nothing is shaded: a strip whose value is x.
+    const std::vector<double> points{0, 0, 4, 0, 4, 1, 0, 1}, values{10, 30, 30, 10};
+    const std::vector<std::int32_t> triangles{0, 1, 2, 0, 2, 3};
+    Figure f = bare({.points = points, .triangles = triangles, .point_values = values}, {400, 100}, 2);
+    FigureCounts counts;
+    const Image image = draw_figure(f, &counts).value();
+    EXPECT_EQ(counts.low, 10);
+    EXPECT_EQ(counts.high, 30);
+    const draw::ColourMap map = *draw::colour_map("viridis");
+    // The strip is 376 pixels wide (0.94 of the window): pixel 12 is its first.
+    for (std::int32_t i = 0; i < 376; ++i) {
+        const Rgba seen = image.pixel(12 + i, 50);
+        const auto step = [&](double part) {
+            return map[std::min<std::size_t>(255, static_cast<std::size_t>(256 * part))];
+        };
+        ASSERT_TRUE(seen == step((i + 0.499) / 376) || seen == step((i + 0.501) / 376)) << i;
+    }
+    f.options.range = {15, 20};
+    const Image cut = draw_figure(f, &counts).value();
+    EXPECT_EQ(cut.pixel(50, 50), map.front());
+    EXPECT_EQ(cut.pixel(250, 50), map.back());
+    EXPECT_EQ(counts.below, 3U);
+    EXPECT_EQ(counts.above, 3U);
+    f.options.range = {30, 30};
+    EXPECT_EQ(draw_figure(f).value().pixel(50, 50), map.front());
+    f.options.range = {};
+    f.options.colour_map = "coolwarm_r";
+    EXPECT_EQ(draw_figure(f).value().pixel(12, 50), draw::colour_map("coolwarm")->back());
+}
+
+TEST(Figure, LogarithmsAndLabels) {
+    const std::vector<double> points{0, 0, 4, 0, 4, 1, 0, 1}, values{1, 1e4, 1e4, 1};
+    const std::vector<std::int32_t> triangles{0, 1, 2, 0, 2, 3};
+    Figure f = bare({.points = points, .triangles = triangles, .point_values = values}, {400, 100}, 2);
+    f.options.log = true;
+    const Image image = draw_figure(f).value();
+    const draw::ColourMap map = *draw::colour_map("viridis");
+    const std::int32_t at = 212;  // the value there is about 5300
+    const double value = 1 + 9999 * (at - 12 + 0.5) / 376;
+    EXPECT_EQ(image.pixel(at, 50), map[static_cast<std::size_t>(64 * std::log10(value))]);
+    const std::vector<double> numbers{7, 3};
+    f = bare({.points = points, .triangles = triangles, .triangle_values = numbers}, {400, 100}, 2);
+    f.options.labels = true;
+    const Image labels = draw_figure(f).value();
+    EXPECT_EQ(labels.pixel(300, 20), draw::curve_colour(1));
+    EXPECT_EQ(labels.pixel(100, 80), draw::curve_colour(0));
+    f.options.labels = false;
+    f.options.log = true;
+    f.options.range = {0, 1};
+    EXPECT_FALSE(draw_figure(f));
+}
+
+TEST(Figure, WhatHasNoValueIsGreyAndCounted) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const std::vector<double> points{0, 0, 1, 0, 1, 1, 0, 1}, values{nan, 7}, both{nan, HUGE_VAL};
+    const std::vector<std::int32_t> triangles{0, 1, 2, 0, 2, 3};
+    Figure f = bare({.points = points, .triangles = triangles, .triangle_values = values}, {100, 100}, 2);
+    FigureCounts counts;
+    const Rgba grey = draw::ColourScale().no_value;
+    const Image image = draw_figure(f, &counts).value();
+    EXPECT_EQ(counts.without_value, 1U);
+    EXPECT_EQ(image.pixel(80, 20), grey);
+    EXPECT_EQ(image.pixel(20, 80), (*draw::colour_map("viridis"))[128]);
+    f.surfaces[0].triangle_values = both;
+    EXPECT_EQ(draw_figure(f, &counts).value().pixel(20, 80), grey);
+    EXPECT_TRUE(std::isnan(counts.low));
+    EXPECT_EQ(counts.without_value, 2U);
+}
+
+TEST(Figure, BothSidesAreLitAlike) {
+    base::Random random(5);
+    for (int k = 0; k < 20; ++k) {
+        Shape s = any_shape(random);
+        const Image image = draw_figure(bare(s.surface(), {60, 60})).value();
+        for (std::size_t t = 0; t < 12; t += 3) std::swap(s.triangles[t], s.triangles[t + 1]);
+        EXPECT_EQ(draw_figure(bare(s.surface(), {60, 60})).value(), image);
+    }
+}
+
+TEST(Figure, NothingAndPoints) {
+    const Figure none = bare({}, {50, 40});
+    EXPECT_EQ(draw_figure(none).value(), blank_image(50, 40, none.options.background).value());
+    const std::vector<double> points{1, 2, 3};
+    const std::vector<std::int32_t> triangles{0, 0, 0};
+    FigureCounts counts;
+    EXPECT_TRUE(draw_figure(bare({.points = points, .triangles = triangles}, {50, 40}), &counts));
+    EXPECT_EQ(counts.render.degenerate, 1U);
+}
+
+/// A square in the plane x = 0 of space, seen from +x, and a line in it from corner to corner.
+TEST(Figure, LinesAreHiddenBySurfacesBeforeThem) {
+    const std::vector<double> square{0, -1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1}, ends{0, -1, -1, 0, 1, 1},
+        behind{-1, -1, 0, -1, 1, 0};
+    const std::vector<std::int32_t> triangles{0, 1, 2, 0, 2, 3}, segment{0, 1};
+    Figure f = bare({.points = square, .triangles = triangles}, {101, 101});
+    f.options.camera = *camera_of("+x");
+    f.options.camera.parallel = true;
+    f.lines = {{.points = ends, .segments = segment, .width = 3, .colour = {255, 0, 0, 255}},
+               {.points = behind, .segments = segment, .width = 3, .colour = {0, 255, 0, 255}}};
+    for (const int samples : {1, 4}) {
+        f.options.samples = samples;
+        const Image image = draw_figure(f).value();
+        EXPECT_EQ(image.pixel(50, 50), (Rgba{255, 0, 0, 255}));
+        std::size_t red = 0, green = 0;
+        for (std::int32_t k = 0; k < 101 * 101; ++k) {
+            const Rgba c = image.pixel(k % 101, k / 101);
+            red += c == Rgba{255, 0, 0, 255} ? 1U : 0U;
+            green += c[1] > c[0] && c[1] > c[2] ? 1U : 0U;
+        }
+        EXPECT_GT(red, 95U);
+        EXPECT_EQ(green, 0U);
+    }
+}
+
+TEST(Figure, ArrowsPointAlongTheirVectors) {
+    const std::vector<double> points{0, 0, 10, 0}, vectors{1, 0, 0, 2};
+    Figure f = bare({}, {200, 100}, 2);
+    f.surfaces.clear();
+    f.arrows = {{.points = points, .vectors = vectors, .longest = 2, .colour = {0, 0, 0, 255}}};
+    FigureCounts counts;
+    const Image image = draw_figure(f, &counts).value();
+    EXPECT_GT(counts.render.drawn, 2U);
+    const auto e = extent(image, f.options.background);
+    EXPECT_LT(e[0], 20);
+    EXPECT_GT(e[1], 180);
+}
+
+TEST(Figure, FilesAreWrittenBySuffix) {
+    const TemporaryFolder folder;
+    const std::vector<double> points{0, 0, 1, 0, 1, 1, 0, 1}, values{1, 2, 3, 4};
+    const std::vector<std::int32_t> triangles{0, 1, 2, 0, 2, 3};
+    Figure f{.dimension = 2, .surfaces = {{.points = points, .triangles = triangles, .point_values = values}}};
+    f.options.title = "a <title> & more";
+    f.options.bar_title = "T";
+    f.options.unit = "K";
+    for (const auto& [name, start] : {std::pair("f.png", "\x89PNG"), {"f.svg", "<svg "}, {"f.pdf", "%PDF-"}}) {
+        ASSERT_TRUE(is_figure_name(name));
+        ASSERT_TRUE(write_figure(folder / name, f));
+        EXPECT_TRUE(testing::get(folder / name).starts_with(start)) << name;
+        const std::string first = testing::get(folder / name);
+        ASSERT_TRUE(write_figure(folder / name, f));
+        EXPECT_EQ(testing::get(folder / name), first) << name << " is the same again";
+    }
+    const std::string svg = testing::get(folder / "f.svg");
+    for (const char* text :
+         {">a &lt;title&gt; &amp; more</text>", ">T (K)</text>", ">1.0</text>", "data:image/png;base64,"})
+        EXPECT_NE(svg.find(text), std::string::npos) << text;
+    EXPECT_EQ(read_png(folder / "f.png").value().width, 800);
+    f.options.resolution = 2;
+    ASSERT_TRUE(write_figure(folder / "f.png", f));
+    EXPECT_EQ(read_png(folder / "f.png").value().width, 1600);
+    EXPECT_FALSE(write_figure(folder / "f.gif", f));
+    EXPECT_FALSE(write_figure(folder / "none/f.png", f));
+}
+
+TEST(Figure, BadInputIsAnError) {
+    const std::vector<double> points{0, 0, 0, 1, 0, 0, 0, 1, 0}, values{1, 2, 3}, two{1, 2};
+    const std::vector<double> bad{0, 0, std::numeric_limits<double>::infinity(), 1, 0, 0, 0, 1, 0};
+    const std::vector<std::int32_t> triangle{0, 1, 2}, beyond{0, 1, 3}, negative{0, -1, 2}, pair{0, 1};
+    Figure good;
+    good.surfaces = {{.points = points, .triangles = triangle, .point_values = values}};
+    ASSERT_TRUE(draw_figure(good));
+    const auto refused = [&](auto change) {
+        Figure f = good;
+        change(f, f.surfaces[0], f.options);
+        EXPECT_FALSE(draw_figure(f));
+    };
+    using S = FigureSurface;
+    using O = FigureOptions;
+    refused([](Figure& f, S&, O&) { f.dimension = 4; });
+    refused([&](Figure&, S& s, O&) { s.triangles = beyond; });
+    refused([&](Figure&, S& s, O&) { s.triangles = negative; });
+    refused([&](Figure&, S& s, O&) { s.triangles = pair; });
+    refused([&](Figure&, S& s, O&) { s.points = bad; });
+    refused([&](Figure&, S& s, O&) { s.points = two; });
+    refused([&](Figure&, S& s, O&) { s.point_values = two; });
+    refused([&](Figure&, S& s, O&) { s.triangle_values = std::span(values).subspan(0, 1); });
+    refused([](Figure&, S&, O& o) { o.camera.azimuth = HUGE_VAL; });
+    refused([](Figure&, S&, O& o) { o.camera.zoom = 0; });
+    refused([](Figure&, S&, O& o) { o.samples = 9; });
+    refused([](Figure&, S&, O& o) { o.resolution = 0; });
+    refused([](Figure&, S&, O& o) { o.colour_map = "jet9"; });
+    refused([](Figure&, S&, O& o) { o.range = {2, 1}; });
+    refused([](Figure&, S&, O& o) { o.size = {0, 10}; });
+    refused([](Figure&, S&, O& o) { o.size = {20, 100}; });  // less than the bar
+    refused([](Figure&, S&, O& o) { o.size = {500, 10}; });
+    refused([&](Figure& f, S&, O&) { f.lines = {{.points = points, .segments = beyond}}; });
+    refused([&](Figure& f, S&, O&) { f.arrows = {{.points = points, .vectors = two}}; });
+    refused([&](Figure& f, S&, O&) { f.grid = {.width = 1, .height = 1}; });
+}
+
+}  // namespace
+}  // namespace barycert
