@@ -8,8 +8,8 @@
 #include <map>
 
 #include "barycert/check.hpp"
-#include "barycert/grid.hpp"
 #include "barycert/figure.hpp"
+#include "barycert/grid.hpp"
 #include "barycert/verify.hpp"
 
 namespace barycert {
@@ -87,12 +87,12 @@ struct PointLine {
 /// triangle, the feature in which it lies, and the distance, negative where the point is inside; options.outside.limit
 /// bounds it. A map has the triangles then, and weights are those of the nearest points: nearest projection.
 struct SampleJob : SamplingJob {
-    std::string points;                     ///< as for open_points; or
-    std::optional<PointLine> line = {};     ///< these
+    std::string points;                  ///< as for open_points; or
+    std::optional<PointLine> line = {};  ///< these
     /// A plot of the values along the way from point to point, or of a series over its times, for each point: .png,
     /// .svg, .pdf. At most six curves.
     std::string plot;
-    FigureOptions figure = {};  ///< of it: title, unit, background, resolution
+    FigureOptions figure = {};              ///< of it: title, unit, background, resolution
     std::vector<std::string> columns = {};  ///< PointOptions::columns
     std::vector<std::string> keep = {};     ///< PointOptions::keep: columns of the points that rows have, too
     std::string map;                        ///< a map (map.hpp) in place of points
@@ -318,6 +318,7 @@ struct RenderReport : MeshReport {
     std::string input;    ///< the scene, mesh or image; empty if there is none
     std::string output;
     RasterSize size;
+    int samples = 1;  ///< of a pixel, across and up; counts are of these
     RenderCounts counts;
     FillMethod method = FillMethod::barycentric;
     Interpolation interpolation = Interpolation::perspective;
@@ -337,8 +338,8 @@ constexpr std::string_view name(PictureKind p) {
     return names[static_cast<std::size_t>(p)];
 }
 
-/// What of a mesh a picture shows: its boundary, in the plane its cells; or, where slices, iso-surfaces or marked cells are
-/// named, these. Cells that threshold or box leave out are not there, nor is what lies before the plane.
+/// What of a mesh a picture shows: its boundary, in the plane its cells; or, where slices, iso-surfaces or marked cells
+/// are named, these. Cells that threshold or box leave out are not there, nor is what lies before the plane.
 struct SceneChoice {
     bool surface = true;   ///< false: no boundary
     bool edges = false;    ///< of cells, on what is drawn
@@ -355,18 +356,18 @@ struct SceneChoice {
     std::string iso_field;
     std::vector<double> iso = {};  ///< values of its iso-surfaces
     std::vector<Plane> slices = {};
-    std::string arrows;              ///< a field of nodes of as many components as there are coordinates
-    std::int64_t arrow_count = 400;  ///< about so many
+    std::string arrows;                    ///< a field of nodes of as many components as there are coordinates
+    std::int64_t arrow_count = 400;        ///< about so many
     std::vector<Mesh::Index> marked = {};  ///< cells by their numbers, in red
 };
 
 /// A picture as a file. Of MeshJob, `mesh` and what belongs to it are for PictureKind::mesh alone.
 struct RenderJob : MeshJob {
     PictureKind picture = PictureKind::scene;
-    std::string output;  ///< .png; of a mesh also .svg or .pdf
+    std::string output;         ///< .png; of a mesh also .svg or .pdf
     FigureOptions figure = {};  ///< size, method, rounding and samples of all pictures; the rest of that of a mesh
     SceneChoice show = {};      ///< of a mesh
-    std::string scene;      ///< a file (.json)
+    std::string scene;          ///< a file (.json)
     Interpolation interpolation = Interpolation::perspective;  ///< of a cube
     std::string image;                                         ///< of a texture: .png; empty: one of 2 by 2 texels
     bool triangle = false;                                     ///< what that is put on; else a square
@@ -392,12 +393,12 @@ struct ContourJob : MeshJob {
     std::optional<Plane> plane = {};
 
     std::vector<std::string> fields = {};  ///< to carry along, see Sampler::build; empty: all. Not for pictures
-    std::string output;        ///< .vtp, .ply, .off; .png, .svg, .pdf; segments as .vtp or .ply
-    std::int64_t width = 800;  ///< of a picture of a section, in pixels, without axes and bar
-    FigureOptions figure = {};  ///< of a picture
-    bool edges = false;         ///< of cells, on a picture
-    bool outline = false;       ///< of the mesh, on a picture of an iso-surface
-    std::string colours;       ///< the field, of nodes or cells, that colours it; named as `field`; empty: grey
+    std::string output;                    ///< .vtp, .ply, .off; .png, .svg, .pdf; segments as .vtp or .ply
+    std::int64_t width = 800;              ///< of a picture of a section, in pixels, without axes and bar
+    FigureOptions figure = {};             ///< of a picture
+    bool edges = false;                    ///< of cells, on a picture
+    bool outline = false;                  ///< of the mesh, on a picture of an iso-surface
+    std::string colours;  ///< the field, of nodes or cells, that colours it; named as `field`; empty: grey
     std::optional<VtkData> vtk_data = {};  ///< of a .vtp file; not set: raw
     int threads = 0;                       ///< 0: as many as the machine has
 };

@@ -17,8 +17,8 @@ namespace {
 /// Members of jobs and what is in them whose options have the same name, with - for _.
 constexpr std::string_view same_names =
     " bounds cell_base cell_column colours columns count delaunay family field fields fix fix_orientation image "
-    "in_process keep kernel kernel_library map mask_column merge_within mesh nonfinite_points onto output outside "
-    "plane points picture range reason results rounding save_map seed simplex spacing step time tolerance value "
+    "in_process keep kernel kernel_library line map mask_column merge_within mesh nonfinite_points onto output outside "
+    "plane plot points picture range reason results rounding save_map seed simplex spacing step time tolerance value "
     "vtk_data weights width ";
 
 /// Those whose options have another.

@@ -128,7 +128,7 @@ void add_choice(const Options& o, SceneChoice& show) {
             "numbers of cells", [&show](Text text) {
                 const auto all = numbers(',', base::whole_number<Mesh::Index>, 1, 100000)(text);
                 if (all) show.marked = *all;
-                return all.has_value();
+                return all.has_value() && std::ranges::min(*all) >= 0;
             });
 }
 

@@ -133,7 +133,7 @@ TEST(RenderIso, AsAPicture) {
     EXPECT_TRUE(contains(grey.out, "picture    200 x 150 pixels, grey: --colours names a field\n")) << grey.out;
     const std::string first = read_file(png);
     EXPECT_EQ(first.substr(0, 8), "\x89PNG\r\n\x1a\n");
-    const Words coloured{"1.5", "--colours", "attribute1", "--size", "200x150", "--azimuth", "60", "--json", "-"};
+    const Words coloured{"1.5", "--colours", "attribute1", "--size", "200x150", "--camera", "60,25", "--json", "-"};
     const Ended r = run(plus(line, coloured));
     EXPECT_EQ(r.code, 0) << r.err;
     const auto j = parse(r.out);
@@ -143,7 +143,7 @@ TEST(RenderIso, AsAPicture) {
     EXPECT_FALSE(read_file(png) == first);
     expect_error(plus(line, {"1e9"}), "the iso-surface is empty: expected a value from ");
     expect_error(plus(line, {"1", "--colours", "zzz"}), "no field of that name");
-    expect_error(plus(line, {"1", "--azimuth", "nan"}), "--azimuth");
+    expect_error(plus(line, {"1", "--camera", "nan,1"}), "--camera");
     expect_error(plus(line, {"1", "--size", "0x1"}), "--size");
     expect_error(plus(line, {"1", "--fields", "attribute1"}), "--fields cannot be combined with a picture");
     expect_error({"render", "iso", mesh("plate"), "--field", "attribute0", "--value", "1.25", "--output", png},
@@ -182,7 +182,7 @@ TEST(RenderIso, WhatIsNotUnderstoodIsRefused) {
     expect_error(plus(line, {"nan", "--output", out}), "--value");
     expect_error(plus(line, {"1,2", "--output", out}), "--value");
     expect_error(plus(line, {"1", "--output", scratch.path("s.stl")}),
-                 "expected .vtp, .ply, .off or .png, found \".stl\"");
+                 "expected .vtp, .ply, .off, .png, .svg or .pdf, found \".stl\"");
     expect_error(plus(line, {"1", "--output", out, "--fields", "zzz"}), "no field of that name");
     expect_error(plus(line, {"1", "--output", out, "--colours", "attribute0"}), "--colours is for pictures");
     expect_error(plus(line, {"1", "--output", out, "--range", "0,1"}), "--range is for pictures");
@@ -219,7 +219,8 @@ TEST(RenderSlice, AsAPicture) {
     const Scratch scratch;
     const std::string png = scratch.path("s.png");
     const Words line{"render", "slice", mesh("cube-hole"), "--plane", "0,0,1,0.5", "--output", png};
-    const Ended r = run(plus(line, {"--field", "attribute0", "--width", "120", "--json", scratch.path("j")}));
+    const Ended r =
+        run(plus(line, {"--field", "attribute0", "--samples", "1", "--width", "120", "--json", scratch.path("j")}));
     EXPECT_EQ(r.code, 0) << r.err;
     EXPECT_EQ(read_file(png).substr(0, 8), "\x89PNG\r\n\x1a\n");
     EXPECT_TRUE(contains(r.out, "picture    120 x 120 pixels of ")) << r.out;
@@ -323,7 +324,7 @@ TEST(RenderSlice, WhatIsNotUnderstoodIsRefused) {
     expect_error({"render", "slice", mesh("plate"), "--plane", "0,0,1,0", "--output", out},
                  "a plane cuts meshes of tetrahedra");
     expect_error({"render", "slice", two, "--plane", "0,0,1,0", "--output", scratch.path("s.jpg")},
-                 "expected .vtp, .ply, .off or .png, found \".jpg\"");
+                 "expected .vtp, .ply, .off, .png, .svg or .pdf, found \".jpg\"");
     expect_error({"render", "slice", two, "--plane", "0,0,1,0.5", "--output", out, "--range", "0,1"},
                  "--range is for pictures");
     EXPECT_EQ(scratch.names(), (Words{"two.ele", "two.node"})) << "nothing is written";

@@ -43,9 +43,9 @@ TEST_F(RenderMesh, EveryChoiceShowsItsPart) {
     EXPECT_LT(outline, whole / 3);
     EXPECT_LT(part({"--slice", "z=0.5"}), whole);
     EXPECT_GT(part({"--slice", "z=0.5", "--slice", "x=0.25", "--outline"}), part({"--slice", "z=0.5"}));
-    EXPECT_GT(part({"--iso", "attribute0=0.3,0.6"}), 500U);
+    EXPECT_GT(part({"--iso", "attribute0=1.2,2.5"}), 500U);
     EXPECT_GT(part({"--mark", "0,1,2"}), outline);
-    EXPECT_GT(part({"--threshold", "attribute0=0.2,0.7"}), 500U);
+    EXPECT_GT(part({"--threshold", "attribute0=1,2"}), 500U);
     EXPECT_GT(part({"--clip", "0,1,0,1,0.5,1"}), 500U);
     // Cut open, with the section: as much is covered from there, in other colours.
     const Image open = drawn(plus(bare, {"--clip", "x=0.5", "--field", "attribute0"}));

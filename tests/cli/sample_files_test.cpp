@@ -48,7 +48,7 @@ TEST(SampleMap, GivesTheSameBytesAsThePoints) {
                  "--on-boundary differs from the map: expected all, found lowest");
     expect_error({"sample", bracket, "--map", map, "--output", "-", "--outside", "error"}, "is outside the mesh");
     expect_error({"sample", mesh("cube-hole"), "--map", map, "--output", "-"}, "error: " + map + ":");
-    expect_error({"sample", bracket, "--map", map, "--points", points, "--output", "-"}, "--points and --map");
+    expect_error({"sample", bracket, "--map", map, "--points", points, "--output", "-"}, "--points, --map and --line");
     expect_error({"sample", bracket, "--map", map, "--save-map", map, "--output", "-"},
                  "--save-map cannot be combined with --map");
     expect_error({"sample", bracket, "--map", "-", "--output", "-"}, "a map cannot come from stdin");
@@ -67,8 +67,9 @@ TEST(SampleFiles, WhatIsNotUnderstoodIsRefused) {
     const std::vector<std::pair<Words, std::string>> refusals{
         {{"sample"}, "MESH is required"},
         {{"sample", two, "--points", points},
-         "no output: expected --output FILE, --weights FILE, or both, found neither"},
-        {{"sample", two, "--output", "-"}, "no points: expected one of --points FILE and --map FILE, found neither"},
+         "no output: expected --output FILE, --weights FILE or --plot FILE, found none"},
+        {{"sample", two, "--output", "-"},
+         "no points: expected one of --points FILE, --map FILE and --line A:B, found none"},
         {plus(in, {"--output", ""}), "--output"},
         {{"sample", two, "--points", "", "--output", "-"}, "--points"},
         {plus(line, {"--json", ""}), "--json"},

@@ -265,7 +265,7 @@ assert (abs(values - rows['T'])[inside] <= 8 * np.spacing(100.0)).all()
 }
 
 TEST_F(WeightFiles, ThatCannotBeAreRefused) {
-    expect_error(sample({}), "no output: expected --output FILE, --weights FILE, or both, found neither");
+    expect_error(sample({}), "no output: expected --output FILE, --weights FILE or --plot FILE, found none");
     expect_error(sample({"--weights", scratch.path("w.npy")}), "unknown suffix of --weights: expected .npz");
     expect_error(sample({"--weights", scratch.path("w.npz"), "--fields", "attribute0"}),
                  "fields or columns without --output");

@@ -212,7 +212,7 @@ TEST(Figure, NothingAndPoints) {
 /// A square in the plane x = 0 of space, seen from +x, and a line in it from corner to corner.
 TEST(Figure, LinesAreHiddenBySurfacesBeforeThem) {
     const std::vector<double> square{0, -1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1}, ends{0, -1, -1, 0, 1, 1},
-        behind{-1, -1, 0, -1, 1, 0};
+        behind{-1, -0.9, 0, -1, 0.9, 0};
     const std::vector<std::int32_t> triangles{0, 1, 2, 0, 2, 3}, segment{0, 1};
     Figure f = bare({.points = square, .triangles = triangles}, {101, 101});
     f.options.camera = *camera_of("+x");

@@ -530,7 +530,7 @@ TEST(EveryEnvironment, Contours) {
             job.colours = name[0] == 'i' ? "attribute2" : "";
             if (name != "c.png") {
                 job.value = 0.1;
-                job.view.size = {60, 40};
+                job.figure.size = {60, 40};
             } else {
                 job.plane = Plane{{0.3, 0.5, 1.0 / 3}, 24};
                 job.width = 60;

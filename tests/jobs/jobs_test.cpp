@@ -72,6 +72,7 @@ TEST(Jobs, ContoursTellWhatTheyDid) {
     job.plane = Plane{{0, 1, 0}, 0.75};
     job.output = folder / "s.png";
     job.width = 64;
+    job.figure.samples = 1;
     const auto picture = contour_files(job);
     ASSERT_TRUE(picture) << picture.error().message();
     ASSERT_TRUE(picture->pixels);
@@ -81,7 +82,7 @@ TEST(Jobs, ContoursTellWhatTheyDid) {
     EXPECT_EQ(pixels.step_right[0], -1.0 / 64);
     EXPECT_EQ(pixels.step_up[2], 1.0 / 64);
     EXPECT_EQ(pixels.middle(0, 0), (std::array<double, 3>{1 - 1.0 / 128, 0.75, 1.0 / 128}));
-    EXPECT_EQ(picture->picture.drawn + picture->picture.outside, 64U * 64U);
+    EXPECT_EQ(picture->drawn.grid.drawn + picture->drawn.grid.outside, 64U * 64U);
     EXPECT_EQ(picture->samples.locations.points(), 64U * 64U);
 }
 

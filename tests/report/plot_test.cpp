@@ -33,17 +33,17 @@ struct Text {
 /// Texts that are read from left to right, with the room they take: letters are at most 0.6 of their size wide on
 /// average in the fonts named.
 std::vector<Text> texts(const std::string& svg) {
-    const std::regex text("<text class=\"([^\"]*)\" x=\"([-0-9.]+)\" y=\"([-0-9.]+)\"([^>]*)>([^<]*)</text>");
+    const std::regex text(
+        "<text font-size=\"([0-9.]+)\" fill=\"[^\"]*\"([^>]*) x=\"([-0-9.]+)\" y=\"([-0-9.]+)\"([^>]*)>([^<]*)</text>");
     std::vector<Text> out;
     for (std::sregex_iterator it(svg.begin(), svg.end(), text), end; it != end; ++it) {
-        const std::string style = " " + (*it)[1].str() + " ", words = (*it)[5];
-        const double x = std::stod((*it)[2]), y = std::stod((*it)[3]);
+        const std::string style = (*it)[2].str(), words = (*it)[6];
+        const double size = std::stod((*it)[1]), x = std::stod((*it)[3]), y = std::stod((*it)[4]);
         const auto is = [&](const char* word) { return style.find(word) != std::string::npos; };
-        const double size = is(" head ") ? 18 : is(" title ") ? 14 : is(" small ") ? 12 : 13;  // as in plot_style
-        if ((*it)[4].str().find("rotate") != std::string::npos) continue;
+        if ((*it)[5].str().find("rotate") != std::string::npos) continue;
         const auto letters = std::count_if(words.begin(), words.end(), [](char c) { return (c & 0xc0) != 0x80; });
         const double width = 0.53 * size * static_cast<double>(letters);
-        const double left = is(" m ") ? x - width / 2 : is(" e ") ? x - width : x;
+        const double left = is("middle") ? x - width / 2 : is("end") ? x - width : x;
         out.push_back({left, left + width, y - 0.75 * size, y + 0.2 * size, words});
     }
     return out;
@@ -84,12 +84,12 @@ std::set<std::string> shown(const std::string& svg) {
 }
 
 TEST(Svg, TicksAreRoundAndFew) {
-    EXPECT_EQ(report::round_ticks(0, 10, 12), (std::vector<double>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10}));
-    EXPECT_EQ(report::round_ticks(-2, 58, 12), (std::vector<double>{0, 5, 10, 15, 20, 25, 30, 35, 40, 45, 50, 55}));
-    EXPECT_EQ(report::round_ticks(0, 1100, 6), (std::vector<double>{0, 200, 400, 600, 800, 1000}));
+    EXPECT_EQ(draw::round_numbers(0, 10, 12), (std::vector<double>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10}));
+    EXPECT_EQ(draw::round_numbers(-2, 58, 12), (std::vector<double>{0, 5, 10, 15, 20, 25, 30, 35, 40, 45, 50, 55}));
+    EXPECT_EQ(draw::round_numbers(0, 1100, 6), (std::vector<double>{0, 200, 400, 600, 800, 1000}));
     for (int max = 2; max < 15; ++max) {
         for (double high = 0.37; high < 2000; high *= 1.7) {
-            const auto ticks = report::round_ticks(-high / 3, high, max);
+            const auto ticks = draw::round_numbers(-high / 3, high, max);
             EXPECT_LE(ticks.size(), static_cast<std::size_t>(max)) << high;
             EXPECT_GE(ticks.size(), 1U) << high;
         }
@@ -97,19 +97,19 @@ TEST(Svg, TicksAreRoundAndFew) {
 }
 
 TEST(Svg, NamesCannotBreakOut) {
-    EXPECT_EQ(report::xml_escaped("a<b>&\"c\n\x01"), "a&lt;b&gt;&amp;&quot;c  ");
-    report::Picture svg(10, 10, "\"/><script>");
+    EXPECT_EQ(draw::xml_escaped("a<b>&\"c\n\x01"), "a&lt;b&gt;&amp;&quot;c  ");
+    draw::Picture svg(10, 10, "\"/><script>");
     svg.text({0, 0}, "</text><script>", "");
-    EXPECT_EQ(svg_markup(svg).find("<script"), std::string::npos);
+    EXPECT_EQ(draw::svg_markup(svg).find("<script"), std::string::npos);
 }
 
 TEST(Svg, ALineIsCutAtTheFrame) {
-    const report::Axis x{.low = 0, .high = 10, .from = 100, .to = 200, .title = {}};
-    const report::Axis y{.low = 0, .high = 5, .from = 300, .to = 200, .title = {}};
-    const auto drawn = [&](report::Pixel a, report::Pixel b) {
-        report::Picture svg(400, 400, "");
-        report::draw_line_through(svg, x, y, a, b, "");
-        return svg_markup(svg);
+    const draw::Axis x{.low = 0, .high = 10, .from = 100, .to = 200, .title = {}};
+    const draw::Axis y{.low = 0, .high = 5, .from = 300, .to = 200, .title = {}};
+    const auto drawn = [&](draw::Pixel a, draw::Pixel b) {
+        draw::Picture svg(400, 400, "");
+        draw::draw_line_through(svg, x, y, a, b, "");
+        return draw::svg_markup(svg);
     };
     EXPECT_NE(drawn({1, 1}, {2, 2}).find("M100.0 300.0L150.0 200.0"), std::string::npos);
     EXPECT_NE(drawn({0, 3}, {1, 3}).find("M100.0 240.0L200.0 240.0"), std::string::npos);
@@ -158,7 +158,8 @@ TEST(DriftPlot, ShowsEachKernelByName) {
          {"scanline-increments", "scanline-increments.float32", "exact", "4", "64", "4096", "0", "2⁰"})
         EXPECT_TRUE(words.contains(word)) << word;
     EXPECT_EQ(svg, drift_plot(report));
-    EXPECT_NE(svg.find("<rect width=\"980\" height=\"620\" fill=\"#fff\"/>"), std::string::npos);  // in dark mode too
+    EXPECT_NE(svg.find("<rect width=\"980\" height=\"620\" fill=\"#ffffff\"/>"),
+              std::string::npos);  // in dark mode too
 }
 
 TEST(DriftPlot, OfManyOrNoneStaysReadable) {
@@ -181,9 +182,8 @@ TEST(Plot, AxesFitTheData) {
     const std::string svg = condition_plot(report);
     expect_readable(svg);
     // From 20 bits at the left to 30 at the right.
-    EXPECT_TRUE(std::regex_search(svg, std::regex("<text class=\"tick m\" x=\"76\\.0\" y=\"519\\.0\"[^>]*>20</text>")));
-    EXPECT_TRUE(
-        std::regex_search(svg, std::regex("<text class=\"tick m\" x=\"700\\.0\" y=\"519\\.0\"[^>]*>30</text>")));
+    EXPECT_TRUE(std::regex_search(svg, std::regex("<text [^>]*middle\" x=\"76\\.0\" y=\"519\\.0\"[^>]*>20</text>")));
+    EXPECT_TRUE(std::regex_search(svg, std::regex("<text [^>]*middle\" x=\"700\\.0\" y=\"519\\.0\"[^>]*>30</text>")));
     // Upwards no farther than the errors, 22 bits.
     for (const char* far : {">40</text>", ">50</text>", "error of 1<"})
         EXPECT_EQ(svg.find(far), std::string::npos) << far;

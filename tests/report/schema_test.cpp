@@ -152,7 +152,7 @@ void contour_reports(Schema& schema) {
     ContourReport run;
     run.file.left_out = {"a"};
     for (const double low : {0.25, std::numeric_limits<double>::quiet_NaN()}) {
-        run.low = run.high = run.picture.low = run.picture.high = low;
+        run.low = run.high = low;
         run.value = 1;
         run.simplices = 6;
         run.view = RasterSize{};
@@ -164,6 +164,8 @@ void contour_reports(Schema& schema) {
         run.plane = Plane{};
         run.pixels = PixelGrid{};
         schema.check("Contour", Json::parse(contour_json(run, measure_environment())), "slice");
+        run.view = RasterSize{};
+        schema.check("Contour", Json::parse(contour_json(run, measure_environment())), "drawn slice");
     }
 }
 

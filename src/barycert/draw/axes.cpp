@@ -33,6 +33,9 @@ struct Steps {
             const double k = std::ceil(low / step), n = std::floor(high / step);
             if (step > 0 && std::fabs(k) < 0x1p52 && std::fabs(n) < 0x1p52 && n - k < max) {
                 first = static_cast<std::int64_t>(k), last = static_cast<std::int64_t>(n);
+                // Quotients are rounded.
+                if (at(first) < low) ++first;
+                if (at(last) > high) --last;
                 return;
             }
             digit = digit == 1 ? 2 : digit == 2 ? 5 : 1;
@@ -80,7 +83,7 @@ Ticks round_ticks(double low, double high, int max) {
     constexpr int most = 4;
     const double largest = std::max(std::fabs(steps.at(steps.first)), std::fabs(steps.at(steps.last)));
     std::int64_t base = 0;
-    int top = exponent_of(largest);
+    int top = largest == 0 ? steps.exponent : exponent_of(largest);
     if (top - steps.exponent >= most) {
         base = steps.first;
         top = exponent_of(steps.at(steps.last - base));

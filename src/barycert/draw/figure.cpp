@@ -262,7 +262,10 @@ private:
             for (Tick& t : a.ticks) t.at = turned ? -t.at : t.at;
             return a;
         };
-        constexpr double across = 80, up = 50;
+        // Beside the pixels, not over them.
+        constexpr double across = 80, up = 50, half = 0.5;
+        from = {from.x - half, from.y - half};
+        to = {to.x + half, to.y + half};
         const Axis x = axis(0, from.x, to.x, across), y = axis(1, to.y, from.y, up);
         picture_.lines({{{from.x, from.y}, {to.x, from.y}}, {{to.x, from.y}, {to.x, to.y}}}, "axis");
         draw_axes(picture_, x, y);
@@ -320,7 +323,7 @@ private:
             Pixel away{(b.y - a.y) / length, (a.x - b.x) / length};
             if (away.x * ((a.x + b.x) / 2 - centre.x) + away.y * ((a.y + b.y) / 2 - centre.y) < 0)
                 away = {-away.x, -away.y};
-            const Ticks ticks = round_ticks(low[k], high[k], std::clamp(static_cast<int>(length / 55), 2, 8));
+            const Ticks ticks = round_ticks(low[k], high[k], std::clamp(static_cast<int>(length / 40), 2, 8));
             for (const Tick& t : ticks.ticks) {
                 Vector3 at = low;
                 at[k] = t.at;
@@ -433,7 +436,9 @@ Status write_figure(const std::string& path, const Figure& figure, FigureCounts*
         return written ? written : Status(of_file(written.error()));
     }
     FigureCounts told;
-    const Result<draw::Picture> picture = draw::laid_out(figure, resolution, &told);
+    Figure drawn = figure;
+    if (!pixels) drawn.options.samples = std::min(o.samples, 2);  // of more pixels
+    const Result<draw::Picture> picture = draw::laid_out(drawn, resolution, &told);
     if (!picture) return of_file(picture.error());
     if (const Status written = draw::write_picture(path, *picture, draw::ground_of(o), resolution); !written)
         return of_file(written.error());

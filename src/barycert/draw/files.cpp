@@ -208,6 +208,10 @@ Result<std::string> pdf_text(const Picture& picture, const Ground& ground) {
     cairo_surface_finish(surface.get());
     if (const cairo_status_t status = cairo_surface_status(surface.get()); status != CAIRO_STATUS_SUCCESS)
         return Error{.what = "cannot make the PDF file", .found = cairo_status_to_string(status)};
+    // The same picture is the same file, whenever it is made; places of objects in the file stay.
+    const std::size_t date = bytes.rfind("/CreationDate (");
+    if (date != std::string::npos)
+        std::fill_n(bytes.begin() + static_cast<std::ptrdiff_t>(date), bytes.find(')', date) + 1 - date, ' ');
     return bytes;
 }
 

@@ -6,8 +6,10 @@ namespace barycert::draw {
 
 GridImage::GridImage(const FigureGrid& grid, const ColourScale& scale) : grid_(grid), scale_(scale) {
     const double aspect = grid.spacing[0] / grid.spacing[1];
-    width_ = static_cast<std::size_t>(std::round(static_cast<double>(grid.width) * std::max(aspect, 1.0)));
-    height_ = static_cast<std::size_t>(std::round(static_cast<double>(grid.height) / std::min(aspect, 1.0)));
+    constexpr double most = 1e15;  // more than a picture has
+    const auto pixels = [&](double x) { return static_cast<std::size_t>(std::min(std::round(x), most)); };
+    width_ = pixels(static_cast<double>(grid.width) * std::max(aspect, 1.0));
+    height_ = pixels(static_cast<double>(grid.height) / std::min(aspect, 1.0));
 }
 
 void GridImage::row(std::size_t r, std::uint8_t* pixels) const {

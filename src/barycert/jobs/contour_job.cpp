@@ -37,7 +37,7 @@ void check_job(const ContourJob& job) {
     if (!picture && !io::has_one_of(job.output, {".vtp", ".ply", ".off"}))
         jobs::refuse_output(job.output, ".vtp, .ply, .off, .png, .svg or .pdf");
     for (const auto& [member, given] :
-         {std::pair("job.colours", !job.colours.empty()), {"job.figure.range", !!job.figure.range}}) {
+         {std::pair("job.colours", !job.colours.empty()), {"job.range", !!job.figure.range}}) {
         if (!picture && given)
             refuse("", std::string(member) + " is for pictures", "", "", "leave it out, or name a .png file");
     }

@@ -23,16 +23,6 @@ using Vector = std::array<double, 3>;
 constexpr Rgba dark_grey{40, 40, 40, 255}, marked_red{200, 16, 46, 255};
 constexpr double thin = 0.7, thick = 1.4;
 
-/// Triangles with coordinates, and rows of numbers, of points that are added one by one.
-struct Growing {
-    Surface surface;
-    std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> new_points = {};
-};
-
-double height(const Plane& plane, const double* p) {
-    return plane.normal[0] * p[0] + plane.normal[1] * p[1] + plane.normal[2] * p[2];
-}
-
 /// The part of the surface with normal.x <= offset. Points on edges are those that a slice has there, to the bit.
 Surface behind(const Surface& whole, const Plane& plane) {
     const HalfSpace half{{-plane.normal[0], -plane.normal[1], -plane.normal[2]}, plane.offset};

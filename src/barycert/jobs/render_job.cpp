@@ -160,6 +160,7 @@ void draw_mesh(const RenderJob& job, RenderReport& report) {
     if (mesh.cells.empty()) refuse(job.mesh, "the mesh has no cells", "", "", "there is nothing to draw");
     report.input = job.mesh;
     report.size = job.figure.size;
+    report.samples = job.figure.samples;
     report.method = job.figure.method;
     report.rounding = job.figure.rounding;
     try {
@@ -203,6 +204,7 @@ Image draw_scene(const RenderJob& job, RenderReport& report) {
     const Scene scene = of_file ? read_scene(job.scene).value() : small_picture(job);
     report.input = of_file ? job.scene : job.image;
     report.size = scene.size;
+    report.samples = scene.samples;
     report.method = scene.method;
     report.interpolation = scene.interpolation;
     report.rounding = scene.rounding;

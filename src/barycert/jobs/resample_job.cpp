@@ -118,7 +118,7 @@ Sink open_picture(const ResampleJob& a, const std::string& path, const std::vect
     options.axis_names = {std::string{"xyz"[w]}, std::string{"xyz"[h]}};
     if (options.bar_title.empty()) options.bar_title = columns.front();
     for (std::size_t k = 0; k < static_cast<std::size_t>(grid.dimension); ++k) {
-        if (k != w && k != h && options.title.empty())
+        if (k != w && k != h && options.title.empty() && options.axes != Axes::none)
             options.title = fmt::format("{} = {}", "xyz"[k], base::shortest(grid.origin[k]));
     }
     const auto values = std::make_shared<std::vector<double>>();
@@ -272,14 +272,13 @@ void check_job(const ResampleJob& job, const std::vector<jobs::Step>& steps) {
                "`barycert sample --points grid.csv --weights`");
     if (job.onto.empty()) {
         if (job.figure.range && !is_figure_name(job.output))
-            refuse(job.output, "job.figure.range needs a picture", "", "",
-                   "use job.output FILE.png, or leave job.figure.range out");
+            refuse(job.output, "job.range needs a picture", "", "", "use job.output FILE.png, or leave job.range out");
         if (job.output != "-" && !io::has_one_of(job.output, {".csv", ".npy", ".vti", ".png", ".svg", ".pdf"}))
             jobs::refuse_output(job.output, ".vti, .npy, .csv, .png, .svg or .pdf for a grid, or - for CSV on stdout");
         return jobs::check_files(job, steps, {}, {{"job.output", job.output}});
     }
     if (job.figure.range)
-        refuse("", "job.figure.range cannot be combined with job.onto", "", "", "it is for pictures: leave it out");
+        refuse("", "job.range cannot be combined with job.onto", "", "", "it is for pictures: leave it out");
     std::vector<std::string> outputs{job.output};
     if (!is_rows(job.output)) {
         const Result<io::MeshFormat> format = io::mesh_output_format(job.output);

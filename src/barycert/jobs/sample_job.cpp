@@ -45,7 +45,8 @@ void check_job(const SampleJob& job, const std::vector<jobs::Step>& steps) {
                "weights depend on no field: leave fields out, or name job.output too");
     if (!job.output.empty() && job.output != "-" && !io::has_one_of(job.output, {".csv", ".npy", ".vtu"}))
         jobs::refuse_output(job.output, ".csv, .npy or .vtu, or - for CSV on stdout");
-    std::vector<base::NamedFile> inputs{{"job.map", job.map}};
+    std::vector<base::NamedFile> inputs;
+    if (!job.map.empty()) inputs = {{"job.map", job.map}};
     if (!job.points.empty()) inputs = {{"job.points", job.points}};
     // Not the file itself, but the stem of a mesh.
     if (!job.points.empty() && job.points != "-" && !io::exists(job.points) && !io::format_of_points(job.points))

@@ -299,13 +299,14 @@ Rgba background(const SceneValue& value) {
 }
 
 Scene scene_of(const SceneValue& file, const std::filesystem::path& folder) {
-    file.allow_only({"size", "background", "positions", "colours", "uv", "triangles", "model", "matrix", "camera",
+    file.allow_only({"size", "samples", "background", "positions", "colours", "uv", "triangles", "model", "matrix", "camera",
                      "texture", "method", "interpolation", "rounding"});
     Scene scene;
     const SceneValue size = file.member("size");
     if (size.size() != 2) size.fail("width and height");
     scene.size = {static_cast<std::int32_t>(size.entry(0).integer(1, max_raster_side)),
                   static_cast<std::int32_t>(size.entry(1).integer(1, max_raster_side))};
+    if (file.has("samples")) scene.samples = static_cast<int>(file.member("samples").integer(1, max_samples));
     if (file.has("background")) scene.background = background(file.member("background"));
     if (file.has("matrix") && file.has("camera")) file.fail("either \"matrix\" or \"camera\", not both");
     if (file.has("matrix")) scene.to_clip = Matrix4{array<16>(file.member("matrix"))};

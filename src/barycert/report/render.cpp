@@ -37,11 +37,12 @@ void tell_triangles(Document& d, const RenderCounts& n) {
              "triangles", text);
 }
 
-void tell_pixels(Document& d, const RenderCounts& n) {
+void tell_pixels(Document& d, const RenderCounts& n, int samples) {
     std::string text = fmt::format("{} drawn", n.pixels);
     if (n.hidden != 0 || n.covered != n.pixels)
         text += fmt::format("; triangles cover {} one by one, the nearest is seen", n.covered);
-    d.figure("pixels", record("count", n.pixels, MEMBERS(n, covered, hidden)), "pixels", text);
+    d.figure("pixels", record("count", n.pixels, MEMBERS(n, covered, hidden)), samples == 1 ? "pixels" : "samples",
+             text);
 }
 
 void tell_colours(Document& d, const ColourRange& c) {
@@ -56,15 +57,17 @@ Document render_document(const RenderReport& s, const Environment& environment) 
     const bool correct = s.rounding == Rounding::correct;
     d.data = record("schema", render_schema, MEMBERS(s, picture, input));
     if (s.picture == "mesh") put(d.data, MEMBERS(s, curved));
-    put(d.data, MEMBERS(s, output), MEMBERS(s.size, width, height), "method", word(s.method), "interpolation",
-        word(s.interpolation), "rounding", correct ? "correct" : "plain");
+    put(d.data, MEMBERS(s, output), MEMBERS(s.size, width, height), MEMBERS(s, samples), "method", word(s.method),
+        "interpolation", word(s.interpolation), "rounding", correct ? "correct" : "plain");
     d.curved(s.curved);
-    std::string text = fmt::format("{}, {} x {} pixels: {}", s.picture, s.size.width, s.size.height, word(s.method));
+    std::string text =
+        fmt::format("{}, {} x {} pixels{}: {}", s.picture, s.size.width, s.size.height,
+                    s.samples == 1 ? "" : fmt::format(" of {0} x {0} samples", s.samples), word(s.method));
     if (s.interpolation != Interpolation::perspective || s.texel_error)
         text += fmt::format(", {}", word(s.interpolation));
     d.name("picture", text + (correct ? ", correctly rounded" : ""));
     tell_triangles(d, s.counts);
-    tell_pixels(d, s.counts);
+    tell_pixels(d, s.counts, s.samples);
     if (s.colours) tell_colours(d, *s.colours);
     if (s.texel_error) {
         const TexelError& e = *s.texel_error;

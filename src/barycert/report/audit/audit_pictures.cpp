@@ -181,10 +181,10 @@ struct MapScale {
                 high = std::max(high, decade(e));
             }
         }
-        const ColourMap map = *colour_map("viridis");
+        const ColourMap viridis = *colour_map("viridis");
         for (int d = low; d <= high; ++d) {
             const int span = std::max(high - low, 1);
-            const Rgba& c = map[static_cast<std::size_t>(255 - 255 * (d - low) / span)];
+            const Rgba& c = viridis[static_cast<std::size_t>(255 - 255 * (d - low) / span)];
             colours.push_back({c[0], c[1], c[2]});
         }
     }

@@ -103,7 +103,7 @@ void draw_tetrahedron(Picture& svg, const Placing& at, Points t, std::string_vie
     for (std::size_t i = 0; i < 4; ++i) {
         front[i] = flat || facing(i);
         if (front[i])
-            svg.polygon({at(t[(i + 1) % 4]), at(t[(i + 2) % 4]), at(t[(i + 3) % 4])}, fmt::format("face {}", colour));
+            svg.area({at(t[(i + 1) % 4]), at(t[(i + 2) % 4]), at(t[(i + 3) % 4])}, fmt::format("face {}", colour));
     }
     for (std::size_t i = 0; i < 4; ++i) {
         for (std::size_t j = i + 1; j < 4; ++j) {
@@ -123,7 +123,7 @@ std::string draw(const Scene& scene, const Shown& shown, double scale, const std
         const std::string_view colour = c == 0 ? "a" : "b";
         const Points t = scene.cell(c);
         if (t.size() == 3) {
-            svg.polygon({at(t[0]), at(t[1]), at(t[2])}, fmt::format("face {}", colour));
+            svg.area({at(t[0]), at(t[1]), at(t[2])}, fmt::format("face {}", colour));
             for (std::size_t i = 0; i < 3; ++i) svg.line(at(t[i]), at(t[(i + 1) % 3]), fmt::format("edge {}", colour));
         } else {
             draw_tetrahedron(svg, at, t, colour);
