@@ -80,7 +80,7 @@ void Options::view(FigureOptions& f, Text what) const {
     const auto help = [&](const char* text) { return with_heading(what, text); };
     integer("--samples", f.samples, 1, max_samples, help("of each pixel, across and up; 1: no smooth edges"));
     size(f.size);
-    parsed("--view", "NAME", help("where the camera stands: iso, or towards +x, -x, ..., -z"),
+    parsed("--view", "NAME", help("where the camera stands: iso, or on the side +x, -x, ..., -z"),
            "iso, +x, -x, +y, -y, +z or -z", f.camera, [&f](Text text) {
                auto camera = camera_of(text);
                if (camera) camera->zoom = f.camera.zoom, camera->parallel = f.camera.parallel;

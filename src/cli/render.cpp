@@ -76,11 +76,13 @@ void add_cube(const Options& o, RenderJob& job) {
                             "with the projected z in place of w, which is wrong as well");
 }
 
-/// LOWX,HIGHX,LOWY,HIGHY,LOWZ,HIGHZ, in the plane without the last two; or a plane.
+/// LOWX,HIGHX,LOWY,HIGHY,LOWZ,HIGHZ; or a plane.
 bool set_clip(Text text, SceneChoice& show) {
     if ((show.plane = plane_of(text))) return true;
-    const auto ends = numbers(',', finite, 4, 6)(text);
-    if (!ends || ends->size() == 5) return false;
+    const auto ends = numbers(',', finite, 6, 6)(text);
+    if (!ends) return false;
+    for (std::size_t i = 0; i < ends->size(); i += 2)
+        if (!((*ends)[i] < (*ends)[i + 1])) return false;
     auto& [low, high] = show.box.emplace();
     for (std::size_t i = 0; i < ends->size(); ++i) (i % 2 == 0 ? low : high)[i / 2] = (*ends)[i];
     return true;
@@ -98,16 +100,17 @@ std::optional<std::pair<std::string, std::vector<double>>> named_numbers(Text te
 /// What of the mesh is drawn.
 void add_choice(const Options& o, SceneChoice& show) {
     o.edges(show.edges, show.outline, "");
-    o.flag("--no-surface", show.surface, "Without the boundary: with --outline or --arrows", false);
-    o.taken(
-        "--clip", "PLANE|BOX",
-        "Cut open: leave out what lies before a plane, as slice has it, and close it by the section; or cells with a "
-        "node in a box: XMIN,XMAX,YMIN,YMAX,ZMIN,ZMAX",
-        "a plane such as x=0.5 or 1,0,0,0.5, or a box: six numbers, in the plane four",
-        [&show](Text text) { return set_clip(text, show); });
+    o.flag("--no-surface", show.surface, "Without the boundary: --outline or --arrows alone", false);
+    o.taken("--clip", "PLANE|BOX",
+            "Cut open: leave out where the normal of a plane points to, such as x > 0.5 for x=0.5, and close it by the "
+            "section; or cells with a "
+            "node in a box: XMIN,XMAX,YMIN,YMAX,ZMIN,ZMAX",
+            "a plane such as x=0.5 or 1,0,0,0.5, or a box: six numbers, each MIN below its MAX",
+            [&show](Text text) { return set_clip(text, show); });
     o.taken("--threshold", "NAME=MIN,MAX", "Only cells whose value is within, or the values at all of whose nodes are",
-            "NAME=MIN,MAX, finite numbers", [&show](Text text) {
+            "NAME=MIN,MAX, finite numbers, MIN <= MAX", [&show](Text text) {
                 const auto given = named_numbers(text, 2, 2);
+                if (given && given->second[0] > given->second[1]) return false;
                 if (given) show.threshold = {given->first, given->second[0], given->second[1]};
                 return given.has_value();
             });
@@ -124,8 +127,9 @@ void add_choice(const Options& o, SceneChoice& show) {
     });
     o.text("--arrows", show.arrows, "Arrows of a field of vectors at nodes of what is drawn", "NAME");
     o.integer<std::int64_t>("--arrow-count", show.arrow_count, 1, 1000000, "About how many of them, spread evenly");
-    o.taken("--mark", "CELL,...", "In place of the boundary these cells in red, by their numbers, and the outline",
-            "numbers of cells", [&show](Text text) {
+    o.taken("--mark", "CELL,...",
+            "In place of the boundary these cells in red, by their numbers from 0, and the outline", "numbers of cells",
+            [&show](Text text) {
                 const auto all = numbers(',', base::whole_number<Mesh::Index>, 1, 100000)(text);
                 if (all) show.marked = *all;
                 return all.has_value() && std::ranges::min(*all) >= 0;

@@ -127,7 +127,7 @@ void add_resample(const Options& program) {
     const auto& [o, a] = program.command(
         "resample", "Sample the fields of a mesh on a regular grid, or onto another mesh, correctly rounded",
         R"(Grids go, by the suffix, to .vti (an array a field, and vtkValidPointMask and cell), .npy (an array of shape
-nz,ny,nx, or nz,ny,nx,columns), .csv (rows as of `barycert sample`; - is stdout), .png (one layer of one
+nz,ny,nx, or nz,ny,nx,columns), .csv (rows as of `barycert sample`; - is stdout), .png .svg .pdf (one layer of one
 column). With --onto to .vtu or .vtk (MESH2, its fields of nodes replaced by those sampled, vtkValidPointMask
 and cell), .msh (Gmsh's, the same without the mask), STEM or STEM.node (TetGen's, with attributes), .csv, .npy.
 Values are those of `barycert sample` at the same points, bit for bit. Exit codes: 0 done, 2 usage or input

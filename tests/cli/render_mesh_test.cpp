@@ -85,6 +85,8 @@ TEST_F(RenderMesh, ColoursAxesAndCameras) {
                                                                                         {"--samples", "0"},
                                                                                         {"--clip", "x"},
                                                                                         {"--clip", "1,2,3,4,5"},
+                                                                                        {"--clip", "1,0,0,1,0,1"},
+                                                                                        {"--threshold", "a=2,1"},
                                                                                         {"--threshold", "a=1"},
                                                                                         {"--iso", "a"},
                                                                                         {"--slice", "w=1"},
@@ -96,6 +98,9 @@ TEST_F(RenderMesh, ColoursAxesAndCameras) {
     expect_error(line({"--arrows", "attribute0"}), "arrows are of a field of nodes");
     expect_error(line({"--iso", "cell:attribute0=1"}), "");
     expect_error(line({"--no-surface"}), "nothing to draw");
+    expect_error(line({"--slice", "x=-5"}), "a slice is empty");
+    expect_error(line({"--iso", "attribute0=99"}), "the iso-surface of a value is empty");
+    expect_error(line({"--slice", "x=0.5", "--clip", "y=0.5"}), "cutting open by a plane is for the boundary");
 }
 
 TEST_F(RenderMesh, VectorsStayVectors) {
@@ -118,7 +123,7 @@ TEST_F(RenderMesh, ArrowsOfAField) {
     const Ended r = run(plus(bare, {"--arrows", "v"}));
     EXPECT_EQ(r.code, 0) << r.err;
     EXPECT_GT(ink(read_png(png_).value()), 100U);
-    expect_error(plus(bare, {"--arrows", "w"}), "one of 3 components: v");
+    expect_error(plus(bare, {"--arrows", "w"}), "one of 3 components, of which there is: v");
 }
 
 TEST(SamplePlot, AlongALineAndOverTime) {

@@ -26,7 +26,7 @@ struct Steps {
 
     Steps(double low, double high, int max) {
         const double span = high / 2 - low / 2;  // half of it: the whole may overflow
-        if (!(span > 0)) return;
+        if (!(span > 0) || !std::isfinite(span)) return;
         exponent = std::max(exponent_of(2 / static_cast<double>(max) * span), -323);
         for (int tries = 0; tries < 6; ++tries) {
             const double step = times_power_of_ten(digit, exponent);
@@ -34,9 +34,11 @@ struct Steps {
             if (step > 0 && std::fabs(k) < 0x1p52 && std::fabs(n) < 0x1p52 && n - k < max) {
                 first = static_cast<std::int64_t>(k), last = static_cast<std::int64_t>(n);
                 // Quotients are rounded.
+                if (at(first - 1) >= low) --first;
                 if (at(first) < low) ++first;
+                if (at(last + 1) <= high) ++last;
                 if (at(last) > high) --last;
-                return;
+                if (last - first < max) return;
             }
             digit = digit == 1 ? 2 : digit == 2 ? 5 : 1;
             exponent += digit == 1 ? 1 : 0;
@@ -86,7 +88,7 @@ Ticks round_ticks(double low, double high, int max) {
     int top = largest == 0 ? steps.exponent : exponent_of(largest);
     if (top - steps.exponent >= most) {
         base = steps.first;
-        top = exponent_of(steps.at(steps.last - base));
+        top = steps.last == base ? steps.exponent : exponent_of(steps.at(steps.last - base));
         out.common = with_minus((base > 0 ? "+" : "") + base::shortest(steps.at(base)));
     }
     const bool scaled = top < -3 || top > 4;

@@ -17,6 +17,14 @@ Ticks ticks_of(const ColourScale& s, double height) {
     Ticks all;
     if (s.log) {
         all.ticks = log_ticks(std::log10(s.low), std::log10(s.high));
+        while (all.ticks.size() > static_cast<std::size_t>(most)) {
+            // Every other one.
+            std::vector<Tick> some;
+            for (std::size_t i = 0; i < all.ticks.size(); i += 2) some.push_back(all.ticks[i]);
+            all.ticks = some;
+        }
+        if (all.ticks.empty())
+            for (const double x : {s.low, s.high}) all.ticks.push_back({std::log10(x), number_text(x)});
         for (Tick& t : all.ticks) t.at = place_in_range(t.at, std::log10(s.low), std::log10(s.high));
     } else {
         all = round_ticks(s.low, s.high, most);
@@ -53,6 +61,12 @@ double ColourBar::width() const {
     // The tallest bar has the most numbers.
     constexpr double tallest = 2000;
     return gap + wide + beside + widest(texts_of(*this, tallest)) + (title.empty() ? 0 : line_height) + 8;
+}
+
+double ColourBar::least_height() const {
+    // Two tips, what stands above and below, and something between them; or a line for each label.
+    constexpr double without_labels = 84, under = 24;
+    return scale.labels.empty() ? without_labels : line_height * static_cast<double>(scale.labels.size()) + under;
 }
 
 void ColourBar::draw(Picture& picture, Pixel corner, double height) const {

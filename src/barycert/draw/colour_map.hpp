@@ -37,6 +37,7 @@ struct ColourBar {
     bool below = false, above = false, none = false;  ///< there is something of these
 
     double width() const;
+    double least_height() const;
     /// Into the picture, from `corner` on, `height` tall.
     void draw(Picture& picture, Pixel corner, double height) const;
 };

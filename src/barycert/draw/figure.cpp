@@ -11,6 +11,7 @@
 #include "barycert/draw/files.hpp"
 #include "barycert/draw/view.hpp"
 #include "barycert/environment.hpp"
+#include "barycert/io/formats.hpp"
 #include "barycert/io/png/png_file.hpp"
 
 namespace barycert {
@@ -90,6 +91,8 @@ Status check(const Figure& f) {
     for (const FigureLines& l : f.lines) {
         if (Status good = check_points(l.points, d, "lines"); !good) return good;
         if (Status good = check_indices(l.segments, 2, l.points.size() / d, "segments"); !good) return good;
+        if (!(l.width >= 0 && l.width <= 1000))
+            return refusal("the width of lines", "0 to 1000 pixels", base::shortest(l.width));
     }
     for (const FigureArrows& a : f.arrows)
         if (Status good = check_arrows(a, d); !good) return good;
@@ -101,6 +104,11 @@ Status check(const Figure& f) {
     if (o.samples < 1 || o.samples > max_samples)
         return refusal("samples a pixel, across and up", fmt::format("1 to {}", max_samples),
                        std::to_string(o.samples));
+    if (o.background[3] != 0 && o.background[3] != 255)
+        return refusal("the opacity of the background", "0 or 255", std::to_string(o.background[3]));
+    const auto by_points = [](const FigureSurface& s) { return !s.point_values.empty(); };
+    if (o.labels && std::ranges::any_of(f.surfaces, by_points))
+        return refusal("labels", "values of triangles, which cells have", "values of points");
     if (!(o.scale >= 0) || !std::isfinite(o.scale))
         return refusal("pixels for a unit", "a finite number above 0", base::shortest(o.scale));
     if (!(o.resolution > 0 && o.resolution <= 32))
@@ -108,8 +116,8 @@ Status check(const Figure& f) {
     for (const double angle : {o.camera.azimuth, o.camera.elevation}) {
         if (!std::isfinite(angle)) return refusal("the place of the camera", "finite angles", base::shortest(angle));
     }
-    if (!(o.camera.zoom > 0 && o.camera.zoom <= 0x1p20))
-        return refusal("the zoom of the camera", "a number above 0", base::shortest(o.camera.zoom));
+    if (!(o.camera.zoom >= 0x1p-20 && o.camera.zoom <= 0x1p20))
+        return refusal("the zoom of the camera", "a number from 2^-20 to 2^20", base::shortest(o.camera.zoom));
     if (o.range &&
         !(std::isfinite(o.range->first) && std::isfinite(o.range->second) && o.range->first <= o.range->second))
         return refusal("the range of colours", "two finite numbers, the lower one first",
@@ -158,17 +166,23 @@ public:
         if (with_bar) right = std::max(right, bar.width());
         std::optional<GridImage> grid;
         if (f_.grid) grid.emplace(*f_.grid, *scale);
-        if (grid) window_of({grid->width(), grid->height()}, left + right, top + bottom, with_bar);
+        if (grid && std::max(grid->width(), grid->height()) > static_cast<std::size_t>(max_raster_side))
+            return file_error({}, "a grid of that size cannot be a picture on axes or beside a bar",
+                              fmt::format("at most {} pixels a side", max_raster_side),
+                              fmt::format("{} by {}", grid->width(), grid->height()),
+                              "draw it without axes, bar and title");
+        least_tall_ = with_bar ? bar.least_height() : 0;
+        if (grid) window_of({grid->width(), grid->height()}, left + right, top + bottom);
         if (const auto given = given_window(); !grid && given)
             window_of({static_cast<std::size_t>(given->width), static_cast<std::size_t>(given->height)}, left + right,
-                      top + bottom, with_bar);
+                      top + bottom);
         double wide = picture_.width - left - right, tall = picture_.height - top - bottom;
         constexpr double least = 16;
-        if (!window_ && (wide < least || tall < least))
-            return file_error(
-                {}, "there is no room beside bar and axes",
-                fmt::format("more than {:.0f} by {:.0f} pixels", left + right + least, top + bottom + least),
-                fmt::format("{} by {}", o_.size.width, o_.size.height), "choose a larger size");
+        if (!window_ && (wide < least || tall < std::max(least, least_tall_)))
+            return file_error({}, "there is no room beside bar and axes",
+                              fmt::format("more than {:.0f} by {:.0f} pixels", left + right + least,
+                                          top + bottom + std::max(least, least_tall_)),
+                              fmt::format("{} by {}", o_.size.width, o_.size.height), "choose a larger size");
         const double bar_top = top, bar_room = tall;
         if (window_) wide = window_->width, tall = window_->height;
         // Whole pixels of the file.
@@ -185,6 +199,10 @@ public:
             if (plane) draw_plane_axes(grid_ends(), {x0, y0}, {x0 + wide, y0 + tall});
         } else {
             const RasterSize window{std::max(1, pixels(wide)), std::max(1, pixels(tall))};
+            if (Status good = check_raster_size(window); !good) return good.error();
+            if (std::int64_t{window.width} * window.height > max_image_pixels)
+                return file_error({}, "the picture is too large", fmt::format("at most {} pixels", max_image_pixels),
+                                  fmt::format("{} by {}", window.width, window.height), "choose a smaller size");
             const View view(f_, window, part_of(f_));
             std::vector<FigureLines> extra;
             if (f_.dimension == 3 && o_.axes == Axes::box) extra.push_back(box_lines(view));
@@ -196,7 +214,7 @@ public:
             if (f_.dimension == 3 && triad) draw_triad(view, {x0, y0 + tall});
         }
         if (!o_.title.empty()) picture_.text({x0 + wide / 2, 24}, o_.title, "head m");
-        if (with_bar && bar_room >= 60) {
+        if (with_bar) {
             const double room = std::min(bar_room, std::max(120.0, 0.92 * bar_room));
             bar.draw(picture_, {picture_.width - bar.width(), bar_top + (bar_room - room) / 2}, room);
         }
@@ -205,12 +223,11 @@ public:
 
 private:
     /// The picture is as large as this window and what is beside it; a bar has some height.
-    void window_of(std::array<std::size_t, 2> size, double beside, double above, bool with_bar) {
-        constexpr double least = 120;
+    void window_of(std::array<std::size_t, 2> size, double beside, double above) {
         const auto wide = static_cast<double>(size[0]), tall = static_cast<double>(size[1]);
         window_ = RasterSize{static_cast<std::int32_t>(size[0]), static_cast<std::int32_t>(size[1])};
         picture_.width = std::ceil(wide + beside);
-        picture_.height = std::ceil(std::max(tall, with_bar ? least : 0) + above);
+        picture_.height = std::ceil(std::max(tall, least_tall_) + above);
     }
 
     std::optional<RasterSize> given_window() const {
@@ -357,6 +374,7 @@ private:
     double resolution_;
     FigureCounts& counts_;
     std::optional<RasterSize> window_;
+    double least_tall_ = 0;  ///< of the room for the bar
     Pixel origin_;
     std::vector<double> corners_;
     std::vector<std::int32_t> edges_;
@@ -428,10 +446,10 @@ Status write_figure(const std::string& path, const Figure& figure, FigureCounts*
     };
     if (!is_figure_name(path)) return of_file(draw::refusal("pictures have other names", ".png, .svg or .pdf", path));
     constexpr double dots = 300 / 96.0;
-    const bool pixels = path.ends_with(".png") || path.ends_with(".PNG");
+    const bool pixels = io::has_suffix(path, ".png");
     const double resolution = pixels ? figure.options.resolution : dots;
     const FigureOptions& o = figure.options;
-    if (pixels && figure.grid && !o.bar && o.axes == Axes::none && o.title.empty()) {
+    if (pixels && figure.grid && !o.bar && o.axes == Axes::none && o.title.empty() && o.resolution == 1) {
         const Status written = draw::write_rows(path, figure, counts);
         return written ? written : Status(of_file(written.error()));
     }

@@ -61,11 +61,12 @@ private:
         if (FT_Init_FreeType(&library_) != 0 || FT_New_Memory_Face(library_, &barycert_font[0], size, 0, &face_) != 0)
             throw std::bad_alloc();  // nothing else can be wrong with a font that is built in
         cairo_.reset(cairo_ft_font_face_create_for_ft_face(face_, FT_LOAD_NO_HINTING));
+        // Cairo keeps what it made of the face in a store of its own: it ends the library when that is done with.
+        static const cairo_user_data_key_t key{};
+        const auto end = [](void* library) { FT_Done_FreeType(static_cast<FT_Library>(library)); };
+        cairo_font_face_set_user_data(cairo_.get(), &key, library_, end);
     }
-    ~Font() {
-        cairo_.reset();
-        FT_Done_FreeType(library_);
-    }
+    ~Font() = default;
 
     FT_Library library_ = nullptr;
     FT_Face face_ = nullptr;
@@ -106,6 +107,8 @@ public:
         }
         for (const PictureItem& item : picture.items) add(item);
     }
+
+    cairo_status_t status() const { return cairo_status(to_.get()); }
 
 private:
     void set(Rgba c) { cairo_set_source_rgba(to_.get(), c[0] / 255.0, c[1] / 255.0, c[2] / 255.0, c[3] / 255.0); }
@@ -152,14 +155,15 @@ private:
     }
 
     void write(const PictureItem& item, const Look& look) {
-        const double width = text_width(item.text, look.size);
+        const std::string text = clean_text(item.text);
+        const double width = text_width(text, look.size);
         const double back = look.anchor == 'm' ? width / 2 : look.anchor == 'e' ? width : 0;
         cairo_save(to_.get());
         cairo_set_font_size(to_.get(), look.size);
         cairo_translate(to_.get(), item.at.x, item.at.y);
         if (item.upwards) cairo_rotate(to_.get(), -std::numbers::pi / 2);
         cairo_move_to(to_.get(), -back, 0);
-        cairo_show_text(to_.get(), clean_text(item.text).c_str());
+        cairo_show_text(to_.get(), text.c_str());
         cairo_restore(to_.get());
     }
 
@@ -204,9 +208,10 @@ Result<std::string> pdf_text(const Picture& picture, const Ground& ground) {
     const Owned<cairo_surface_t, cairo_surface_destroy> surface(
         cairo_pdf_surface_create_for_stream(append, &bytes, points * picture.width, points * picture.height));
     cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_TITLE, clean_text(picture.title).c_str());
-    Painter(surface.get(), picture, ground, points);
+    const cairo_status_t drawn = Painter(surface.get(), picture, ground, points).status();
     cairo_surface_finish(surface.get());
-    if (const cairo_status_t status = cairo_surface_status(surface.get()); status != CAIRO_STATUS_SUCCESS)
+    const cairo_status_t status = drawn != CAIRO_STATUS_SUCCESS ? drawn : cairo_surface_status(surface.get());
+    if (status != CAIRO_STATUS_SUCCESS)
         return Error{.what = "cannot make the PDF file", .found = cairo_status_to_string(status)};
     // The same picture is the same file, whenever it is made; places of objects in the file stay.
     const std::size_t date = bytes.rfind("/CreationDate (");
@@ -233,8 +238,8 @@ Result<Image> drawn(const Picture& picture, const Ground& ground, double scale) 
     const Owned<cairo_surface_t, cairo_surface_destroy> surface(
         cairo_image_surface_create_for_data(reinterpret_cast<unsigned char*>(pixels.data()), CAIRO_FORMAT_ARGB32,
                                             image->width, image->height, 4 * image->width));
-    Painter(surface.get(), picture, ground, scale);
-    if (const cairo_status_t status = cairo_surface_status(surface.get()); status != CAIRO_STATUS_SUCCESS)
+    if (const cairo_status_t status = Painter(surface.get(), picture, ground, scale).status();
+        status != CAIRO_STATUS_SUCCESS)
         return Error{.what = "cannot draw the picture", .found = cairo_status_to_string(status)};
     cairo_surface_flush(surface.get());
     std::size_t at = 0;

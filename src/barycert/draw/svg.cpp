@@ -123,7 +123,7 @@ std::string clean_text(std::string_view text) {
     std::string out;
     while (!text.empty()) {
         const base::Character c = base::first_character(text);
-        const bool control = c.code < 0x20 || c.code == 0x7f;
+        const bool control = c.code < 0x20 || c.code == 0x7f || c.code == 0xfffe || c.code == 0xffff;
         out += c.size == 0 ? "\xef\xbf\xbd" : control ? " " : text.substr(0, c.size);
         text.remove_prefix(std::max<std::size_t>(c.size, 1));
     }

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "barycert/base/arena.hpp"
+#include "barycert/base/finite.hpp"
 #include "barycert/base/strict_math.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/base/vectors.hpp"
@@ -18,7 +19,21 @@ using base::cross, base::dot, base::minus;
 constexpr double fovy = 30;  ///< degrees
 constexpr double ambient = 0.35;
 
-/// f(point) of all that a figure draws: corners of triangles, ends of lines, where arrows begin.
+/// The length of a vector; its numbers may be as large or small as they like.
+double length_of(const double* v, std::size_t d) {
+    double most = 0, sum = 0;
+    for (std::size_t k = 0; k < d; ++k) most = std::max(most, std::fabs(v[k]));
+    for (std::size_t k = 0; k < d && most > 0; ++k) sum += v[k] / most * (v[k] / most);
+    return most * std::sqrt(sum);
+}
+
+double longest_of(const FigureArrows& a, std::size_t d) {
+    double most = 0;
+    for (std::size_t i = 0; i < a.vectors.size(); i += d) most = std::max(most, length_of(a.vectors.data() + i, d));
+    return most;
+}
+
+/// f(point) of all that a figure draws: corners of triangles, ends of lines, both ends of arrows.
 template <class F>
 void for_points(const Figure& figure, F f) {
     const auto d = static_cast<std::size_t>(figure.dimension);
@@ -26,8 +41,16 @@ void for_points(const Figure& figure, F f) {
         for (const std::int32_t i : s.triangles) f(s.points.data() + d * static_cast<std::size_t>(i));
     for (const FigureLines& l : figure.lines)
         for (const std::int32_t i : l.segments) f(l.points.data() + d * static_cast<std::size_t>(i));
-    for (const FigureArrows& a : figure.arrows)
-        for (std::size_t i = 0; i < a.points.size(); i += d) f(a.points.data() + i);
+    for (const FigureArrows& a : figure.arrows) {
+        const double most = longest_of(a, d);
+        for (std::size_t i = 0; i < a.points.size(); i += d) {
+            std::array<double, 3> tip{};
+            for (std::size_t k = 0; k < d; ++k)
+                tip[k] = a.points[i + k] + (most > 0 ? a.vectors[i + k] / most * a.longest : 0);
+            f(a.points.data() + i);
+            if (base::all_finite(tip)) f(tip.data());
+        }
+    }
 }
 
 /// The camera that sees all points, in perspective, as near as the window allows; or in parallel.
@@ -38,6 +61,14 @@ Matrix4 fitting_camera(const Figure& figure, const Space& space, const ViewAxes&
         const Vector3 at = space(p);
         for (std::size_t k = 0; k < 3; ++k) along[k].add(dot(directions[k], at));
     });
+    // A box of axes is seen whole.
+    std::vector<Vector3> corners;
+    for (unsigned i = 0; i < 8 && figure.options.axes == Axes::box && !space.box[0].empty(); ++i) {
+        Vector3 at{};
+        for (std::size_t k = 0; k < 3; ++k) at[k] = (i >> k & 1U) != 0 ? space.box[k].high : space.box[k].low;
+        corners.push_back(space(at.data()));
+        for (std::size_t k = 0; k < 3; ++k) along[k].add(dot(directions[k], corners.back()));
+    }
     if (along[0].empty()) along = {Range{0, 0}, Range{0, 0}, Range{0, 0}};
     const auto& [x, y, z] = along;
     const auto& [r, u, t] = axes;
@@ -52,12 +83,13 @@ Matrix4 fitting_camera(const Figure& figure, const Space& space, const ViewAxes&
     } else {
         const double tangent = part * std::tan(0.5 * fovy * (std::numbers::pi / 180));
         // A point is in sight if its distance across is at most its distance along times the tangent.
-        for_points(figure, [&](const double* p) {
-            const Vector3 at = space(p);
+        const auto fit = [&, &x = x, &y = y, &r = r, &u = u, &t = t](const Vector3& at) {
             const double across =
                 std::max(std::abs(dot(r, at) - x.middle()) / aspect, std::abs(dot(u, at) - y.middle()));
             distance = std::max(distance, dot(t, at) + across / tangent);
-        });
+        };
+        for_points(figure, [&](const double* p) { fit(space(p)); });
+        for (const Vector3& at : corners) fit(at);
         // No error can occur: 0 < near <= far, and points lie in a box of side 2.
         projection = perspective(fovy, aspect, 0.9 * (distance - z.high), 1.1 * (distance - z.low)).value();
     }
@@ -162,22 +194,17 @@ private:
 
     /// A shaft and a head of some sides; in the plane both are flat.
     void add(const FigureArrows& a) {
-        double most = 0;
-        for (std::size_t i = 0; i < a.vectors.size(); i += d_) most = std::max(most, length_of(a.vectors.data() + i));
+        const double most = longest_of(a, d_);
         for (std::size_t i = 0; most > 0 && i < a.points.size(); i += d_) {
             const double* const v = a.vectors.data() + i;
-            const double length = length_of(v) / most * a.longest / space_.half;
+            // Not so long that it overflows.
+            const double own = length_of(v, d_), length = std::min(own / most * a.longest / space_.half, 0x1p20);
             if (!(length > 0)) continue;
             const Rgba colour = a.values.empty() ? a.colour : scale_(a.values[i / d_]);
             Vector3 along{};
-            for (std::size_t k = 0; k < d_; ++k) along[k] = v[k] / length_of(v);
+            for (std::size_t k = 0; k < d_; ++k) along[k] = v[k] / own;
             add_arrow(space_(a.points.data() + i), along, length, colour);
         }
-    }
-    double length_of(const double* v) const {
-        double sum = 0;
-        for (std::size_t k = 0; k < d_; ++k) sum += v[k] * v[k];
-        return std::sqrt(sum);
     }
 
     void add_arrow(const Vector3& from, const Vector3& along, double length, Rgba colour) {
@@ -280,16 +307,18 @@ Image View::draw(const ColourScale& scale, std::span<const FigureLines> extra, F
     const FigureOptions& o = figure_.options;
     std::vector<raster::Line> lines;
     const auto add = [&](const FigureLines& of) {
-        const std::size_t d = space_.dimension;
+        std::vector<double> positions;
+        for (std::size_t i = 0; i < of.points.size(); i += space_.dimension) {
+            const Vector3 p = space_(of.points.data() + i);
+            positions.insert(positions.end(), {p[0], p[1], p[2], 1});
+        }
+        const std::vector<double> at = in_clip_space(positions, to_clip_);
         for (std::size_t i = 0; i + 1 < of.segments.size(); i += 2) {
             raster::Line& line = lines.emplace_back();
             line.width = of.width * o.resolution;
             line.colour = of.colour;
-            for (std::size_t k = 0; k < 2; ++k) {
-                const Vector3 p = space_(of.points.data() + d * static_cast<std::size_t>(of.segments[i + k]));
-                const std::vector<double> at = in_clip_space(std::array{p[0], p[1], p[2], 1.0}, to_clip_);
-                std::copy_n(at.data(), 4, line.ends[k].data());
-            }
+            for (std::size_t k = 0; k < 2; ++k)
+                std::copy_n(&at[4 * static_cast<std::size_t>(of.segments[i + k])], 4, line.ends[k].data());
         }
     };
     for (const FigureLines& l : figure_.lines) add(l);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "barycert/base/strict_math.hpp"
 #include "barycert/base/vectors.hpp"
@@ -50,16 +51,20 @@ Surface behind(const Surface& whole, const Plane& plane) {
         }
         return at->second;
     };
+    std::vector<bool> inside(whole.point_count());
+    for (std::size_t i = 0; i < inside.size(); ++i) {
+        const std::span<const double> at = std::span(whole.points).subspan(3 * i, 3);
+        inside[i] = !clip_segment(3, at, at, half).value().empty;
+    }
     for (std::size_t t = 0; t < whole.cell_count(); ++t) {
         std::vector<std::int32_t> polygon;
         for (std::size_t c = 0; c < 3; ++c) {
             const std::int32_t a = whole.cells[3 * t + c], b = whole.cells[3 * t + (c + 1) % 3];
-            const std::vector<double> from = row(a), to = row(b);
-            const ClippedSegment kept = clip_segment(3, from, to, half).value();
-            if (kept.empty) continue;
-            if (!kept.new_a) polygon.push_back(add(a, a, from));
-            if (kept.new_a) polygon.push_back(add(a, b, kept.a));
-            if (kept.new_b) polygon.push_back(add(a, b, kept.b));
+            const bool a_in = inside[static_cast<std::size_t>(a)], b_in = inside[static_cast<std::size_t>(b)];
+            if (a_in) polygon.push_back(add(a, a, row(a)));
+            if (a_in == b_in) continue;
+            const ClippedSegment kept = clip_segment(3, row(a), row(b), half).value();
+            if (kept.new_a || kept.new_b) polygon.push_back(add(a, b, kept.new_a ? kept.a : kept.b));
         }
         polygon.erase(std::unique(polygon.begin(), polygon.end()), polygon.end());
         for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
@@ -178,16 +183,21 @@ void MeshFigure::add_mesh() {
                                       {!show_.slices.empty(), "a slice"},
                                       {!show_.iso.empty(), "an iso-surface"}})
         if (given && plane) refuse("", std::string(what) + " is of meshes in space", "", "triangles in the plane");
-    for (const Plane& cut : show_.slices) add(slice(*mesh_, cut, options).value().surface);
+    for (const Plane& cut : show_.slices) add_cut(slice(*mesh_, cut, options).value().surface, "a slice");
     if (!show_.iso.empty()) {
         const FieldChoice of = field_of_numbers(*mesh_, show_.iso_field, made_, notes_);
         if (of.of_cells) refuse("", "field \"" + show_.iso_field + "\" is one of cells", "a field of nodes", "");
         CutOptions carries = options;
         if (colours_.empty()) carries.point_fields.push_back(of.field);
-        for (const double value : show_.iso) add(isosurface(*mesh_, *of.field, value, carries).value().surface);
+        for (const double value : show_.iso)
+            add_cut(isosurface(*mesh_, *of.field, value, carries).value().surface, "the iso-surface of a value");
     }
     // Where something else is to be seen, the surface would hide it.
-    if (show_.surface && figure_.surfaces.empty() && show_.marked.empty()) {
+    const bool others = !show_.slices.empty() || !show_.iso.empty() || !show_.marked.empty();
+    if (others && show_.plane)
+        refuse("", "cutting open by a plane is for the boundary", "", "slices, iso-surfaces or marked cells",
+               "leave one of them out");
+    if (show_.surface && !others) {
         Surface whole = plane ? cells_of(*mesh_, options) : boundary(*mesh_, options).value();
         show_.plane ? add_cut_open(std::move(whole)) : add(std::move(whole));
     }
@@ -201,6 +211,12 @@ void MeshFigure::add_mesh() {
 void MeshFigure::add_cut_open(Surface whole) {
     add(behind(whole, *show_.plane));
     add(slice(*mesh_, *show_.plane, carried()).value().surface);
+}
+
+void MeshFigure::add_cut(Surface surface, const char* what) {
+    if (surface.cells.empty())
+        refuse("", std::string(what) + " is empty", "one that cuts cells", "none", "choose another");
+    add(std::move(surface));
 }
 
 void MeshFigure::add(Surface surface) {
@@ -258,10 +274,6 @@ bool MeshFigure::is_cell_edge(Mesh::Index cell, Mesh::Index a, Mesh::Index b) co
 void MeshFigure::add_edges(const Surface& surface) {
     const std::vector<Edge> edges = edges_of(surface);
     std::vector<std::int32_t> segments;
-    const auto node_of = [&](std::int32_t p) {
-        const auto i = 2 * static_cast<std::size_t>(p);
-        return surface.mesh_edges[i] == surface.mesh_edges[i + 1] ? surface.mesh_edges[i] : Mesh::Index{-1};
-    };
     for (std::size_t i = 0; i < edges.size();) {
         const std::size_t first = i;
         while (i < edges.size() && edges[i].points == edges[first].points) ++i;
@@ -269,10 +281,14 @@ void MeshFigure::add_edges(const Surface& surface) {
             return surface.mesh_cells[static_cast<std::size_t>(edges[e].triangle)];
         };
         const auto [a, b] = edges[first].points;
-        const Mesh::Index u = node_of(a), v = node_of(b);
+        std::set<Mesh::Index> nodes;
+        for (const std::int32_t p : {a, b})
+            for (const std::size_t end : {0U, 1U})
+                nodes.insert(surface.mesh_edges[2 * static_cast<std::size_t>(p) + end]);
         const bool same =
             i - first == 2 && mesh_->cell_number(cell_of(first)) == mesh_->cell_number(cell_of(first + 1));
-        if (u >= 0 && v >= 0 ? !is_cell_edge(cell_of(first), u, v) : same) continue;
+        // An edge of the mesh, or a piece of one; or a line through facets and cells.
+        if (nodes.size() == 2 ? !is_cell_edge(cell_of(first), *nodes.begin(), *nodes.rbegin()) : same) continue;
         segments.insert(segments.end(), {a, b});
     }
     add_lines(figure_.dimension == 2 ? numbers_.emplace_back(surface.points) : surface.points, std::move(segments),
@@ -310,30 +326,34 @@ void MeshFigure::add_outline() {
 /// Cells by their numbers in the file, whole.
 void MeshFigure::add_marked() {
     std::vector<Mesh::Index> cells;
+    std::vector<Mesh::Index> marked = show_.marked;
+    std::ranges::sort(marked);
     for (std::size_t i = 0; i < mesh_->cell_count(); ++i) {
-        if (std::ranges::count(show_.marked, mesh_->cell_number(static_cast<Mesh::Index>(i))) != 0)
+        if (std::ranges::binary_search(marked, mesh_->cell_number(static_cast<Mesh::Index>(i))))
             cells.push_back(static_cast<Mesh::Index>(i));
     }
     if (cells.empty())
-        refuse("", "no such cell to mark", fmt::format("numbers of cells, of which there are {}", mesh_->cell_count()),
+        refuse("", "no such cell to mark", "numbers of cells as they are in the file, from 0",
                fmt::format("{}", fmt::join(show_.marked, ", ")));
-    const Mesh part = mesh::part_of(*mesh_, std::move(cells)).mesh;
-    const Surface& surface = surfaces_.emplace_back(part.dimension == 3 ? boundary(part, {.threads = threads_}).value()
-                                                                        : cells_of(part, {}));
+    const mesh::Part part = mesh::part_of(*mesh_, std::move(cells));
+    Surface& surface = surfaces_.emplace_back(
+        part.mesh.dimension == 3 ? boundary(part.mesh, {.threads = threads_}).value() : cells_of(part.mesh, {}));
+    for (Mesh::Index& node : surface.mesh_edges) node = part.nodes[static_cast<std::size_t>(node)];
+    for (Mesh::Index& cell : surface.mesh_cells) cell = part.cells[static_cast<std::size_t>(cell)];
     figure_.surfaces.push_back({.points = surface.points, .triangles = surface.cells, .colour = marked_red});
+    if (show_.edges) add_edges(surface);
 }
 
 /// At points of what is drawn, or at nodes: one in each box of a grid.
 void MeshFigure::add_arrows() {
     const auto d = static_cast<std::size_t>(mesh_->dimension);
     const auto found = std::ranges::find(mesh_->point_fields, show_.arrows, &Field::name);
+    const std::string vectors = base::joined(mesh_->point_fields, ", ", [&](const Field& f) {
+        return static_cast<std::size_t>(f.components) == d ? f.name : std::string();
+    });
     if (found == mesh_->point_fields.end() || static_cast<std::size_t>(found->components) != d)
         refuse("", "arrows are of a field of nodes",
-               fmt::format("one of {} components: {}", d,
-                           base::joined(mesh_->point_fields, ", ",
-                                        [&](const Field& f) {
-                                            return static_cast<std::size_t>(f.components) == d ? f.name : std::string();
-                                        })),
+               fmt::format("one of {} components, of which there is: {}", d, vectors.empty() ? "none" : vectors),
                '"' + show_.arrows + '"');
     std::array<double, 3> low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
     for (std::size_t i = 0; i < mesh_->points.size(); ++i) {
@@ -348,7 +368,7 @@ void MeshFigure::add_arrows() {
     std::vector<std::size_t> nodes;
     for (const Surface& s : surfaces_)
         for (std::size_t i = 0; i < s.mesh_edges.size(); i += 2)
-            nodes.push_back(static_cast<std::size_t>(s.mesh_edges[i]));
+            if (s.mesh_edges[i] == s.mesh_edges[i + 1]) nodes.push_back(static_cast<std::size_t>(s.mesh_edges[i]));
     for (std::size_t i = 0; surfaces_.empty() && i < mesh_->point_count(); ++i) nodes.push_back(i);
     std::map<std::array<std::int64_t, 3>, std::size_t> boxes;
     for (const std::size_t node : nodes) {
@@ -360,14 +380,14 @@ void MeshFigure::add_arrows() {
         }
         if (finite) boxes.try_emplace(box, node);
     }
-    std::vector<double>&points = numbers_.emplace_back(), &vectors = numbers_.emplace_back();
+    std::vector<double>&points = numbers_.emplace_back(), &numbers = numbers_.emplace_back();
     for (const auto& [box, node] : boxes) {
         for (std::size_t k = 0; k < d; ++k) {
             points.push_back(mesh_->points[d * node + k]);
-            vectors.push_back(found->data[d * node + k]);
+            numbers.push_back(found->data[d * node + k]);
         }
     }
-    figure_.arrows.push_back({.points = points, .vectors = vectors, .longest = 1.2 * side, .colour = dark_grey});
+    figure_.arrows.push_back({.points = points, .vectors = numbers, .longest = 1.2 * side, .colour = dark_grey});
 }
 
 }  // namespace barycert::jobs

@@ -33,6 +33,7 @@ private:
     void choose_cells();
     CutOptions carried();
     void add_cut_open(Surface surface);
+    void add_cut(Surface surface, const char* what);
     void add_arrows();
     void add_marked();
     void add_lines(const std::vector<double>& points, std::vector<std::int32_t> segments, double width, Rgba colour);

@@ -48,7 +48,7 @@ void fit(Axis& axis, const std::vector<Curve>& curves, double Pixel::*of) {
     }
     if (!(low <= high)) low = 0, high = 1;
     const double whole = high / 2 - low / 2, room = of == &Pixel::y ? whole / 10 : 0;
-    const double least = low == high ? std::max(std::fabs(low) / 10, 1e-300) : room;
+    const double least = low == high ? (low == 0 ? 1 : std::fabs(low) / 10) : room;
     axis.low = low - least;
     axis.high = high + least;
     axis.set(draw::round_ticks(axis.low, axis.high, of == &Pixel::x ? 9 : 8));
@@ -79,6 +79,7 @@ public:
     Status write() const {
         const bool over_time = !report_.steps.empty();
         const std::vector<Curve> all = over_time ? over_steps() : along_the_way();
+        if (all.empty() || way_.empty()) refuse(job_.plot, "nothing to plot", "fields and points", "none of these");
         if (all.size() > draw::max_curves)
             refuse(job_.plot, "too many curves for a plot", fmt::format("at most {}", draw::max_curves),
                    std::to_string(all.size()), over_time ? "choose fewer points or fields" : "name some by job.fields");
@@ -87,7 +88,7 @@ public:
         fit(plot.y, all, &Pixel::y);
         plot.x.title = over_time ? (report_.times.empty() ? "step" : "time") : "length from the first point";
         plot.y.title = all.size() == 1 ? all[0].name : "";
-        if (!job_.figure.unit.empty()) plot.y.title += " (" + job_.figure.unit + ")";
+        if (!job_.figure.unit.empty()) plot.y.title += (all.size() == 1 ? " (" : "(") + job_.figure.unit + ")";
         draw_axes(plot.picture, plot.x, plot.y);
         plot.curves(all, {}, over_time);
         return draw::write_picture(job_.plot, plot.picture, {job_.figure.background}, job_.figure.resolution);

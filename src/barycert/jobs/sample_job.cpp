@@ -28,8 +28,11 @@ void check_job(const SampleJob& job, const std::vector<jobs::Step>& steps) {
                "one of job.points FILE, job.map FILE and job.line A:B", given == 0 ? "none" : "several",
                "a map contains its points");
     if (!job.plot.empty() && !is_figure_name(job.plot)) jobs::refuse_output(job.plot, ".png, .svg or .pdf");
-    if (!job.plot.empty() && job.all_steps)
-        refuse(job.plot, "a plot of outputs of steps", "the steps as columns of one output", "", "leave {step} out");
+    if (!job.plot.empty() && (job.all_steps || jobs::has_step_place(job.output)))
+        refuse(job.plot, "a plot of outputs of steps", "the steps of a field as columns of one output", "",
+               "leave {step} out, and name the field as NAME@PATTERN");
+    if (!job.plot.empty() && !job.weights.empty() && job.output.empty())
+        refuse(job.plot, "job.weights without job.output takes no fields to plot", "job.output FILE", "none");
     if (!job.map.empty() && !job.save_map.empty())
         refuse(job.save_map, "job.save_map cannot be combined with job.map", "", "", "copy the map");
     if (!job.map.empty() && !(job.columns.empty() && job.keep.empty()))
@@ -146,6 +149,7 @@ void refuse_what_is_of_meshes(const SampleJob& job) {
         if (given) refuse(job.mesh, std::string(member) + " is for meshes", "", "a surface", "leave it out");
     };
     only_meshes(job.all.has_value(), "job.all");
+    only_meshes(!job.plot.empty(), "job.plot");
     only_meshes(job.all_steps || (io::is_surface_file(job.mesh) && job.step.made()), "job.step");
     only_meshes(!job.series.empty(), "a series of fields");
     only_meshes(job.options.rounding == Rounding::plain, "job.rounding");

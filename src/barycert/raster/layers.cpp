@@ -165,8 +165,8 @@ public:
         const std::uint64_t before = counts.covered;
         part_ = &part;
         numbers_ = numbers;
-        const bool at_each =
-            samples_ == 1 || layers_.method != FillMethod::barycentric || layers_.rounding == Rounding::correct;
+        const bool at_each = samples_ == 1 || layers_.method != FillMethod::barycentric ||
+                             layers_.rounding == Rounding::correct || !thick_enough(part.window);
         part.line || !at_each ? draw_pixels() : draw_samples();
         return counts.covered != before;
     }
@@ -211,7 +211,8 @@ private:
     float slack() const {
         constexpr double widest = 3, most = 0x1p-8, rounding = 0x1p-20;
         const auto [along, up] = slope();
-        return static_cast<float>(std::min(widest * samples_ * (std::fabs(along) + std::fabs(up)) + rounding, most));
+        const double own = widest * samples_ * (std::fabs(along) + std::fabs(up)) + rounding;
+        return static_cast<float>(own < most ? own : most);  // NaN: of a sliver
     }
 
     /// fill(j, first, last, numbers): the depth and the numbers of these samples of row j, 1 + n each.
@@ -336,7 +337,7 @@ private:
                 const double limit = part_->line ? depth_[at] + double{slack_[at]} : depth_[at];
                 if (!(z < limit)) continue;
                 places[seen++] = at;
-                depth_[at] = part_->line ? std::min(z, depth_[at]) : z;
+                if (!part_->line) depth_[at] = z;  // of lines a later one lies above
                 if (!slack_.empty() && !part_->line) slack_[at] = own_slack_;
             }
         }
@@ -381,11 +382,12 @@ public:
           counts_(counts),
           height_(layers.size.height),
           samples_{layers.size.width * layers.samples, layers.size.height * layers.samples},
+          rows_(std::clamp((1 << 20) / (samples_.width * layers.samples), 1, 32)),
           image_(blank_image(layers.size.width, layers.size.height, layers.background).value()) {}
 
     Image run() {
         set_parts();
-        const auto bands = static_cast<std::size_t>((height_ + rows - 1) / rows);
+        const auto bands = static_cast<std::size_t>((height_ + rows_ - 1) / rows_);
         const base::Lists<std::uint32_t> of_band(bands, [&](auto add) {
             std::uint32_t all = 0;
             for (const Parts& some : parts_)
@@ -398,8 +400,8 @@ public:
         std::mutex mutex;
         base::parallel_for(bands, [&](std::size_t b) {
             const ExactEnvironment environment;  // threads that were there before have theirs
-            const auto begin = static_cast<std::int32_t>(b) * rows;
-            Band band(layers_, begin, std::min(begin + rows, height_));
+            const auto begin = static_cast<std::int32_t>(b) * rows_;
+            Band band(layers_, begin, std::min(begin + rows_, height_));
             std::vector<double> numbers(3 * layers_.numbers);
             for (const std::uint32_t i : of_band[b]) {
                 const Part& part = *all[i];
@@ -419,7 +421,6 @@ public:
     }
 
 private:
-    static constexpr std::int32_t rows = 32;  ///< of pixels in a band
     static constexpr std::size_t grain = 1U << 12;
 
     void set_parts() {
@@ -442,7 +443,7 @@ private:
     template <class Add>
     void add_to_bands(const Part& part, std::uint32_t index, const Add& add) const {
         const auto [low, high] = std::minmax({part.window[1], part.window[3], part.window[5]});
-        const double tall = 1.0 * rows * layers_.samples, last = (height_ - 1) / rows;
+        const double tall = 1.0 * rows_ * layers_.samples, last = (height_ - 1) / rows_;
         if (high < 0 || low > samples_.height) return;
         const auto first = static_cast<std::size_t>(std::clamp(std::floor(low / tall), 0.0, last));
         for (auto b = first; b <= static_cast<std::size_t>(std::clamp(std::floor(high / tall), 0.0, last)); ++b)
@@ -466,6 +467,7 @@ private:
     RenderCounts& counts_;
     std::int32_t height_;
     RasterSize samples_;  ///< how many, across and up
+    std::int32_t rows_;   ///< of pixels in a band
     Image image_;
     std::vector<Parts> parts_;  ///< of ranges of triangles; the last of lines
     std::vector<std::atomic<bool>> drawn_;

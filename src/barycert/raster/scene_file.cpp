@@ -299,8 +299,8 @@ Rgba background(const SceneValue& value) {
 }
 
 Scene scene_of(const SceneValue& file, const std::filesystem::path& folder) {
-    file.allow_only({"size", "samples", "background", "positions", "colours", "uv", "triangles", "model", "matrix", "camera",
-                     "texture", "method", "interpolation", "rounding"});
+    file.allow_only({"size", "samples", "background", "positions", "colours", "uv", "triangles", "model", "matrix",
+                     "camera", "texture", "method", "interpolation", "rounding"});
     Scene scene;
     const SceneValue size = file.member("size");
     if (size.size() != 2) size.fail("width and height");
