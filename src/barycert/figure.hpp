@@ -120,8 +120,8 @@ Result<Image> draw_figure(const Figure& figure, FigureCounts* counts = nullptr);
 /// True for the suffixes of write_figure: .png, .svg, .pdf.
 bool is_figure_name(std::string_view path);
 
-/// In .svg and .pdf text and axes are text and lines, and the rest an image of 300 dpi. As .png a grid without bar, axes
-/// and title, with a resolution of 1, has its pixels alone, clear where there is no value, and any size of up to a
+/// In .svg and .pdf text and axes are text and lines, and the rest an image of 300 dpi. As .png a grid without bar,
+/// axes and title, with a resolution of 1, has its pixels alone, clear where there is no value, and any size of up to a
 /// million pixels a side: it is written line by line. Error: as draw_figure;
 /// the file cannot be written.
 Status write_figure(const std::string& path, const Figure& figure, FigureCounts* counts = nullptr);

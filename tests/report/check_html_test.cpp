@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "barycert/draw/axes.hpp"
 #include "barycert/report.hpp"
 #include "barycert/report/check/check_pictures.hpp"
-#include "barycert/draw/axes.hpp"
 #include "check_meshes.hpp"
 #include "lines.hpp"
 #include "well_formed.hpp"
