@@ -127,10 +127,10 @@ void MeshFigure::choose_cells() {
     };
     const std::size_t corners = mesh.corners(), d = static_cast<std::size_t>(mesh.dimension);
     if (show_.threshold) {
-        const auto& [name, low, high] = *show_.threshold;
-        const FieldChoice of = field_of_numbers(mesh, name, made_, notes_);
+        const SceneChoice::Threshold& within = *show_.threshold;
+        const FieldChoice of = field_of_numbers(mesh, within.field, made_, notes_);
         const std::vector<double>& data = of.field->data;
-        const auto out = [&](double x) { return !(low <= x && x <= high); };
+        const auto out = [&](double x) { return !(within.low <= x && x <= within.high); };
         drop([&](std::size_t i) {
             if (of.of_cells) return out(data[i]);
             return std::any_of(&mesh.cells[corners * i], &mesh.cells[corners * i] + corners,
@@ -138,12 +138,12 @@ void MeshFigure::choose_cells() {
         });
     }
     if (show_.box) {
-        const auto& [low, high] = *show_.box;
+        const auto& box = *show_.box;
         drop([&](std::size_t i) {
             return std::any_of(&mesh.cells[corners * i], &mesh.cells[corners * i] + corners, [&](Mesh::Index node) {
                 const double* const p = &mesh.points[d * static_cast<std::size_t>(node)];
                 bool inside = true;
-                for (std::size_t k = 0; k < d; ++k) inside = inside && low[k] < p[k] && p[k] < high[k];
+                for (std::size_t k = 0; k < d; ++k) inside = inside && box.first[k] < p[k] && p[k] < box.second[k];
                 return inside;
             });
         });
