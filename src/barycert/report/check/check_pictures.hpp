@@ -4,8 +4,11 @@
 #include <Eigen/Core>
 
 #include "barycert/check.hpp"
+#include "barycert/draw/picture.hpp"
 
 namespace barycert::report {
+
+using namespace draw;
 
 /// The worst cells and those with defects, drawn, and a map of the mesh that has them. Empty if there are none.
 std::string exhibits(const CheckReport& report, const Mesh& mesh);
