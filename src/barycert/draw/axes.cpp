@@ -170,14 +170,14 @@ void Plot::curves(const std::vector<Curve>& all, const std::string& style, bool 
     for (std::size_t i = all.size(); i-- > 0;) {
         const std::string own = fmt::format("k{}", i % max_curves);
         draw_line(all[i].median, own + " median");
-        draw_line(all[i].line, own + " " + style);
+        draw_line(all[i].line, fmt::format("{} {}", own, style));
         for (const Pixel& p : all[i].line) {
             if (marks && std::isfinite(p.y)) picture.mark({x.at(p.x), y.at(p.y)}, shapes[i % max_curves], 3.4, own);
         }
     }
     for (std::size_t i = 0; i < all.size(); ++i) {
         const std::string own = fmt::format("k{}", i % max_curves);
-        picture.line({720, legend}, {748, legend}, own + " " + style);
+        picture.line({720, legend}, {748, legend}, fmt::format("{} {}", own, style));
         if (marks) picture.mark({734, legend}, shapes[i % max_curves], 4, own);
         picture.text({758, legend + 4}, all[i].name, "title");
         if (!all[i].below.empty()) picture.text({758, legend + 20}, all[i].below, "small");

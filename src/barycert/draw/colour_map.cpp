@@ -154,6 +154,7 @@ std::uint8_t byte_of(std::string_view hex) {
 
 std::vector<std::string_view> colour_map_names() {
     std::vector<std::string_view> names;
+    names.reserve(tables.size() + 1);
     for (const Table& t : tables) names.push_back(t.name);
     names.emplace_back("gray");
     return names;

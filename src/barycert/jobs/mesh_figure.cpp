@@ -199,7 +199,7 @@ void MeshFigure::add_mesh() {
                "leave one of them out");
     if (show_.surface && !others) {
         Surface whole = plane ? cells_of(*mesh_, options) : boundary(*mesh_, options).value();
-        show_.plane ? add_cut_open(std::move(whole)) : add(std::move(whole));
+        show_.plane ? add_cut_open(whole) : add(std::move(whole));
     }
     if (!show_.marked.empty()) add_marked();
     if (!show_.arrows.empty()) add_arrows();
@@ -208,7 +208,7 @@ void MeshFigure::add_mesh() {
         refuse("", "nothing to draw", "a surface, lines or arrows", "none of these");
 }
 
-void MeshFigure::add_cut_open(Surface whole) {
+void MeshFigure::add_cut_open(const Surface& whole) {
     add(behind(whole, *show_.plane));
     add(slice(*mesh_, *show_.plane, carried()).value().surface);
 }

@@ -32,7 +32,7 @@ private:
 
     void choose_cells();
     CutOptions carried();
-    void add_cut_open(Surface surface);
+    void add_cut_open(const Surface& surface);
     void add_cut(Surface surface, const char* what);
     void add_arrows();
     void add_marked();

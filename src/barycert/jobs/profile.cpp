@@ -146,7 +146,7 @@ Sink plotted(Sink sink, const SampleJob& job, std::vector<std::string> columns, 
     };
     return sink_of(write, [rows, to]() -> Status {
         if (to)
-            if (const Status committed = to->commit(); !committed) return committed;
+            if (Status committed = to->commit(); !committed) return committed;
         return rows->write();
     });
 }

@@ -443,7 +443,8 @@ private:
     template <class Add>
     void add_to_bands(const Part& part, std::uint32_t index, const Add& add) const {
         const auto [low, high] = std::minmax({part.window[1], part.window[3], part.window[5]});
-        const double tall = 1.0 * rows_ * layers_.samples, last = (height_ - 1) / rows_;
+        const std::int32_t last_band = (height_ - 1) / rows_;
+        const double tall = 1.0 * rows_ * layers_.samples, last = last_band;
         if (high < 0 || low > samples_.height) return;
         const auto first = static_cast<std::size_t>(std::clamp(std::floor(low / tall), 0.0, last));
         for (auto b = first; b <= static_cast<std::size_t>(std::clamp(std::floor(high / tall), 0.0, last)); ++b)
