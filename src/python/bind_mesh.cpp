@@ -109,10 +109,10 @@ std::string set_cells(const MeshObject& object, const std::string& file, Curved 
     return found.cells == 0 || curved == Curved::isoparametric ? std::string() : message(found);
 }
 
-/// In the order of pickles.
+/// In the order of pickles. A new member does not compile until it is one of them.
 auto arrays_of(auto& shapes) {
-    return std::tie(shapes.types, shapes.ends, shapes.nodes, shapes.face_ends, shapes.ring_ends, shapes.rings,
-                    shapes.parts, shapes.inside);
+    auto& [types, ends, nodes, face_ends, ring_ends, rings, parts, inside] = shapes;
+    return std::tie(types, ends, nodes, face_ends, ring_ends, rings, parts, inside);
 }
 
 /// What points, cells and fields do not tell, to be pickled: how cells are taken, and the shapes that they are parts

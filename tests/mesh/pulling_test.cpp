@@ -337,7 +337,7 @@ TEST(Pulling, PartsThatAreNotThoseOfTheCellsAreTold) {
         EXPECT_STREQ(mesh::inconsistency(other), "its cells are not the parts of its shapes");
         other.shapes = {};
         other.shapes.parts = parts;
-        EXPECT_EQ(mesh::inconsistency(other) == nullptr, parts.size() < 2);
+        EXPECT_EQ(mesh::inconsistency(other) == nullptr, parts.empty());
     }
     add_shape(mesh, 10, {0, 1, 3, 4});
     for (const Index from : {Index{0}, n}) {

@@ -5,9 +5,9 @@
 namespace barycert::audit {
 namespace {
 
-/// A recipe: a simplex from a mesh, then step after step.
 using Source = Draw (*)(const MeshSource& meshes, Simplex s, base::Random& random);
 using Step = void (*)(Draw& draw, base::Random& random);
+/// A recipe: a simplex from a mesh, then step after step.
 template <Source source, Step... steps>
 Draw drawn(base::Random& random, const MeshSource& meshes, Simplex s) {
     Draw draw = source(meshes, s, random);
@@ -29,7 +29,7 @@ void nudge(Draw& draw, base::Random& random) {
     move_by_ulp(c, c.point[axis], static_cast<int>(axis), random);
 }
 
-/// In the face of the vertices but the last ones.
+/// In the face of all vertices but the last so many.
 template <int fewer>
 void point_in_face(Draw& draw, base::Random& random) {
     draw.simplex.point = random_point(draw.simplex, random, vertex_count(draw.simplex.simplex) - fewer);

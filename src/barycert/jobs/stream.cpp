@@ -67,7 +67,7 @@ private:
     void work(Block& block) const {
         Table& rows = block.rows;
         block.outside.reset();
-        if (source_.located) look_outside(block);
+        if (source_.located) look_outside(block);  // known before anything is computed
         if (block.outside) return;
         if (source_.located)
             mesh_.sampler().evaluate(rows.points, options_, rows, block.first).value();

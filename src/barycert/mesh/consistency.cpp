@@ -72,7 +72,7 @@ const char* inconsistency_of_extras(const Mesh& mesh, FieldValues values) {
     const std::vector<Mesh::Index>& parts = shapes.parts;
     const bool ascend = std::ranges::adjacent_find(parts, std::greater_equal()) == parts.end();
     if (shapes.count() == 0
-            ? parts.size() > 1
+            ? parts.size() > 1 || (!parts.empty() && mesh.cell_count() != 0)
             : parts.size() != shapes.count() + 1 || shapes.ends.size() != shapes.count() || parts.front() != 0 ||
                   !ascend || parts.back() != static_cast<Mesh::Index>(mesh.cell_count()) ||
                   mesh.cell_numbers.size() != mesh.cell_count())

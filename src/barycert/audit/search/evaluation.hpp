@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cmath>
-#include <compare>
+#include <utility>
 
 #include "barycert/audit/asking.hpp"
 

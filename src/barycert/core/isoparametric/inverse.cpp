@@ -35,7 +35,7 @@ std::optional<double> value_of(const Ball<TwoDoubles>& b, int exponent) {
 /// Rounded, the exact value and the middle lie between the ends of the ball.
 template <unsigned bits>
 std::optional<double> value_of(const Ball<Wide<bits>>& b, int exponent, double* middle, double* off) {
-    using Wider = Wide<2400>;  // radii are 2^-1000 or more: their sums with the middle are exact
+    using Wider = Wide<2400>;  // sums with radii, 2^-1000 or more, are exact or off by far less than the room
     const auto end = [&](double by) { return rounded(Rational(ldexp(Wider(Wider(b.mid) + by), exponent))); };
     const double radius = b.radius * (1 + 0x1p-40);  // room for what underflowed
     const double low = end(-radius), high = end(radius);
