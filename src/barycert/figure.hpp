@@ -55,8 +55,8 @@ struct FigureCamera {
     bool parallel = false;                ///< no perspective
 };
 
-/// "iso", "+x", "-x", ..., "-z": where the camera stands. Nothing if it is none of these.
-std::optional<FigureCamera> camera_of(std::string_view view);
+/// "iso", "+x", "-x", ..., "-z": azimuth and elevation of a camera there. Nothing if it is none of these.
+std::optional<std::pair<double, double>> angles_of(std::string_view view);
 
 struct FigureOptions {
     RasterSize size{800, 600};  ///< of the whole picture; of files of vectors in 96ths of an inch
@@ -103,6 +103,7 @@ struct GridCounts {
 };
 
 struct FigureCounts {
+    RasterSize size;  ///< of the whole picture: pixels of a .png, else 96ths of an inch
     RenderCounts render;
     double low = 0, high = 0;            ///< the range; NaN if there are no values
     std::uint64_t without_value = 0;     ///< triangles drawn in grey, for a value of theirs is not finite
@@ -111,7 +112,7 @@ struct FigureCounts {
 };
 
 /// matplotlib's: "viridis", "cividis", ...; with "_r" behind it the same from its other end.
-std::vector<std::string> colour_map_names();
+std::vector<std::string_view> colour_map_names();
 
 /// As large as it fits. Error: spans that do not fit together; an index, coordinate, angle or range that is not valid;
 /// a name that is none; a size that is refused, or leaves no room beside bar and axes.

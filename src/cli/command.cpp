@@ -18,7 +18,8 @@ namespace {
 constexpr std::string_view same_names =
     " bounds cell_base cell_column colours columns count delaunay family field fields fix fix_orientation image "
     "in_process keep kernel kernel_library line map mask_column merge_within mesh nonfinite_points onto output outside "
-    "plane plot points picture range reason results rounding save_map seed simplex spacing step time tolerance value "
+    "plane plot points picture range reason results rounding save_map scale seed simplex size spacing step time "
+    "tolerance value "
     "vtk_data weights width ";
 
 /// Those whose options have another.

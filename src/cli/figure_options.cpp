@@ -41,7 +41,8 @@ void Options::figure(FigureOptions& f, Text what) const {
            });
     flag("--log", f.log, help("colours by the logarithm of values, which are to be above 0"));
     flag("--labels", f.labels, help("a colour of its own for each value, 12 at most, such as numbers of materials"));
-    const std::vector<std::string> names = colour_map_names();
+    const std::vector<std::string_view> maps = colour_map_names();
+    const std::vector<std::string> names(maps.begin(), maps.end());
     parsed("--colormap", "NAME",
            help("colours from low to high, by matplotlib's names; NAME_r: turned round; default: ") + f.colour_map,
            joined(names) + ", perhaps with _r", f.colour_map, [names](Text text) -> std::optional<std::string> {
@@ -80,19 +81,21 @@ void Options::view(FigureOptions& f, Text what) const {
     const auto help = [&](const char* text) { return with_heading(what, text); };
     integer("--samples", f.samples, 1, max_samples, help("of each pixel, across and up; 1: no smooth edges"));
     size(f.size);
-    parsed("--view", "NAME", help("where the camera stands: iso, or on the side +x, -x, ..., -z"),
-           "iso, +x, -x, +y, -y, +z or -z", f.camera, [&f](Text text) {
-               auto camera = camera_of(text);
-               if (camera) camera->zoom = f.camera.zoom, camera->parallel = f.camera.parallel;
-               return camera;
-           });
+    auto* const view = taken("--view", "NAME", help("where the camera stands: iso, or on the side +x, -x, ..., -z"),
+                             "iso, +x, -x, +y, -y, +z or -z", [&f](Text text) {
+                                 const auto angles = angles_of(text);
+                                 if (angles) std::tie(f.camera.azimuth, f.camera.elevation) = *angles;
+                                 return angles.has_value();
+                             });
     taken("--camera", "AZIMUTH,ELEVATION",
           help("the same in degrees: from the x axis towards y, and above the xy plane; default: 30,25"),
-          "AZIMUTH,ELEVATION, finite numbers of degrees", [&f](Text text) {
+          "AZIMUTH,ELEVATION, finite numbers of degrees",
+          [&f](Text text) {
               const auto angles = ends_of(text);
               if (angles) std::tie(f.camera.azimuth, f.camera.elevation) = *angles;
               return angles.has_value();
-          });
+          })
+        ->excludes(view);
     parsed("--zoom", "FACTOR", help("above 1: nearer; default: 1"), "a number above 0", f.camera.zoom, positive);
     flag("--parallel", f.camera.parallel, help("no perspective"));
 }

@@ -37,7 +37,7 @@ void refuse_option(Text option, Text expected, Text found) {
     throw CLI::ValidationError(option, fmt::format("expected {}, found \"{}\"", expected, found));
 }
 
-std::string given_option(const CLI::App& app, std::initializer_list<std::string_view> names, bool others) {
+std::string given_option(const CLI::App& app, const std::vector<std::string_view>& names, bool others) {
     for (const CLI::Option* option : app.get_options()) {
         const bool named = std::find(names.begin(), names.end(), option->get_name()) != names.end();
         if (option->count() != 0 && named != others) return option->get_name();

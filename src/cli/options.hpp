@@ -73,6 +73,12 @@ inline constexpr const char* mesh_help =
 /// What options are declared with: names, types, helps.
 using Text = const std::string&;
 
+/// The options of pictures, for outputs that are none.
+inline const std::vector<std::string_view> figure_options{
+    "--range",      "--log",  "--labels",     "--colormap", "--title",  "--unit",  "--no-bar",
+    "--background", "--axes", "--resolution", "--samples",  "--size",   "--width", "--view",
+    "--camera",     "--zoom", "--parallel",   "--edges",    "--outline"};
+
 /// Refuses what an option is given.
 [[noreturn]] void refuse_option(Text option, Text expected, Text found);
 
@@ -189,7 +195,7 @@ private:
 };
 
 /// The first option that was given and is among these; or, with `others`, that is not. Empty: none.
-std::string given_option(const CLI::App& app, std::initializer_list<std::string_view> names, bool others = false);
+std::string given_option(const CLI::App& app, const std::vector<std::string_view>& names, bool others = false);
 
 /// NAME and VALUE of NAME=VALUE, neither of them empty; else refuses the option.
 std::pair<std::string, std::string> assignment(Text option, Text expected, Text text);

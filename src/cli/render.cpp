@@ -125,8 +125,10 @@ void add_choice(const Options& o, SceneChoice& show) {
         if (!plane) refuse_option("--slice", "an axis and where, such as z=0.5, or NX,NY,NZ,D, finite numbers", text);
         show.slices.push_back(*plane);
     });
-    o.text("--arrows", show.arrows, "Arrows of a field of vectors at nodes of what is drawn", "NAME");
-    o.integer<std::int64_t>("--arrow-count", show.arrow_count, 1, 1000000, "About how many of them, spread evenly");
+    auto* const arrows =
+        o.text("--arrows", show.arrows, "Arrows of a field of vectors at nodes of what is drawn", "NAME");
+    o.integer<std::int64_t>("--arrow-count", show.arrow_count, 1, 1000000, "About how many of them, spread evenly")
+        ->needs(arrows);
     o.taken("--mark", "CELL,...",
             "In place of the boundary these cells in red, by their numbers from 0, and the outline", "numbers of cells",
             [&show](Text text) {
@@ -155,7 +157,8 @@ void add_mesh(const Options& render) {
     add_choice(o, job.show);
     o.figure(job.figure, "");
     o.view(job.figure, "");
-    o.number("--scale", job.figure.scale, 0, "In the plane, in place of --size: pixels for a unit", "PIXELS");
+    o.number("--scale", job.figure.scale, 0, "In the plane, in place of --size: pixels for a unit", "PIXELS")
+        ->excludes(o.app().get_option("--size"));
     add_outputs(o, a);
     add_methods(o, job.figure);
     o.curved(job.curved);

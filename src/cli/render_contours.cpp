@@ -24,12 +24,10 @@ void add_contour_options(const Options& o, ContourArguments& a) {
 }
 
 int run_contour(ContourArguments& a) {
-    const std::string of_picture =
-        given_option(*a.app, {"--camera", "--view", "--zoom", "--size", "--width", "--samples", "--title", "--unit",
-                              "--colormap", "--axes", "--log", "--labels", "--no-bar", "--background", "--resolution",
-                              "--parallel", "--edges", "--outline"});
+    const std::string of_picture = given_option(*a.app, figure_options);
     if (!of_picture.empty() && !a.job.output.empty() && !is_figure_name(a.job.output))
-        return fail({.what = of_picture + " is for pictures", .remedy = "leave it out, or name a .png file"});
+        return fail(
+            {.what = of_picture + " is for pictures", .remedy = "leave it out, or name a .png, .svg or .pdf file"});
     return a.reports.summarise(a.job, contour_files, contour_json, contour_text);
 }
 

@@ -61,6 +61,18 @@ int run_sampling(Arguments<Job>& a) {
     return a.reports.summarise(a.job, files, sample_json, sample_text);
 }
 
+struct ResampleArguments : Arguments<ResampleJob> {
+    const CLI::App* app = nullptr;
+};
+
+int run_resample(ResampleArguments& a) {
+    const std::string of_picture = given_option(*a.app, figure_options);
+    if (!of_picture.empty() && !is_figure_name(a.job.output))
+        return fail({.what = of_picture + " needs a picture",
+                     .remedy = "leave it out, or use --output FILE.png, .svg or .pdf"});
+    return run_sampling<ResampleJob, resample_files>(a);
+}
+
 }  // namespace
 
 void add_sample(const Options& program) {
@@ -91,28 +103,28 @@ error.)",
            "Columns of the points to copy into the rows: names; or all: every column but the coordinates and those "
            "that rows have anyway; NEW=NAME renames a column",
            "NAMES|all");
-    o.taken("--line", "A:B", "Instead of --points: --count points from A to B", "XA,YA,ZA:XB,YB,ZB, finite numbers",
-            [&job](Text text) {
-                const auto ends = numbers(':', numbers(',', finite, 2, 3), 2, 2)(text);
-                if (!ends || (*ends)[0].size() != (*ends)[1].size()) return false;
-                if (!job.line) job.line.emplace();
-                job.line->from = (*ends)[0];
-                job.line->to = (*ends)[1];
-                return true;
-            });
+    auto* const line = o.taken("--line", "A:B", "Instead of --points: --count points from A to B",
+                               "XA,YA,ZA:XB,YB,ZB, finite numbers", [&job](Text text) {
+                                   const auto ends = numbers(':', numbers(',', finite, 2, 3), 2, 2)(text);
+                                   if (!ends || (*ends)[0].size() != (*ends)[1].size()) return false;
+                                   if (!job.line) job.line.emplace();
+                                   job.line->from = (*ends)[0];
+                                   job.line->to = (*ends)[1];
+                                   return true;
+                               });
     o.taken("--count", "N", "Of --line: how many points; default: 200", "a number of at least 1", [&job](Text text) {
-        const auto n = count_of(text);
-        if (n && !job.line) job.line.emplace();
-        if (n) job.line->count = *n;
-        return n.has_value();
-    });
+         const auto n = count_of(text);
+         if (n && !job.line) job.line.emplace();
+         if (n) job.line->count = *n;
+         return n.has_value();
+     })->needs(line);
     o.text("--output", job.output, "Rows: .csv .npy .vtu; - is CSV on stdout");
-    o.text(
+    auto* const plot = o.text(
         "--plot", job.plot,
         "Picture of values over the length from point to point, a curve a field, broken outside the mesh; of a series "
         "over its times: .png .svg .pdf");
-    o.text("--title", job.figure.title, "What stands above the plot; default: the mesh", "TEXT");
-    o.text("--unit", job.figure.unit, "Of the values, at the plot's axis", "TEXT");
+    o.text("--title", job.figure.title, "What stands above the plot; default: the mesh", "TEXT")->needs(plot);
+    o.text("--unit", job.figure.unit, "Of the values, at the plot's axis", "TEXT")->needs(plot);
     add_sampling_options(o, job, a.reports);
     o.nonfinite(job.options.nonfinite_points);
     o.choice<std::optional<bool>>(
@@ -132,7 +144,8 @@ column). With --onto to .vtu or .vtk (MESH2, its fields of nodes replaced by tho
 and cell), .msh (Gmsh's, the same without the mask), STEM or STEM.node (TetGen's, with attributes), .csv, .npy.
 Values are those of `barycert sample` at the same points, bit for bit. Exit codes: 0 done, 2 usage or input
 error.)",
-        run_sampling<ResampleJob, resample_files>);
+        run_resample);
+    a.app = &o.app();
     ResampleJob& job = a.job;
     o.mesh(job.mesh);
     o.parsed("--grid", "NXxNYxNZ", "Number of points along each axis, ends included; a single point lies in the middle",

@@ -10,6 +10,7 @@
 #include "barycert/base/text.hpp"
 #include "barycert/draw/colour_map.hpp"
 #include "barycert/draw/files.hpp"
+#include "barycert/figure.hpp"
 
 namespace barycert::draw {
 namespace {

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "barycert/base/random.hpp"
 #include "barycert/draw/colour_map.hpp"
@@ -107,7 +108,7 @@ TEST(Figure, ViewsByName) {
     for (const auto& [name, wide, tall] :
          {std::tuple("+x", 2.0, 3.0), {"-x", 2, 3}, {"+y", 1, 3}, {"-y", 1, 3}, {"+z", 1, 2}, {"-z", 1, 2}}) {
         Figure f = bare({.points = points, .triangles = triangles}, {300, 300});
-        f.options.camera = camera_of(name).value();
+        std::tie(f.options.camera.azimuth, f.options.camera.elevation) = angles_of(name).value();
         f.options.camera.parallel = true;
         const auto e = extent(draw_figure(f).value(), f.options.background);
         EXPECT_NEAR((e[1] - e[0] + 1.0) / (e[3] - e[2] + 1.0), wide / tall, 0.02) << name;
@@ -115,8 +116,8 @@ TEST(Figure, ViewsByName) {
         const auto half = extent(draw_figure(f).value(), f.options.background);
         EXPECT_NEAR(half[3] - half[2], (e[3] - e[2]) / 2, 2) << name;
     }
-    EXPECT_FALSE(camera_of("x"));
-    EXPECT_TRUE(camera_of("iso"));
+    EXPECT_FALSE(angles_of("x"));
+    EXPECT_TRUE(angles_of("iso"));
 }
 
 TEST(Figure, ColoursAreThoseOfTheMap) {
@@ -215,7 +216,7 @@ TEST(Figure, LinesAreHiddenBySurfacesBeforeThem) {
         behind{-1, -0.9, 0, -1, 0.9, 0};
     const std::vector<std::int32_t> triangles{0, 1, 2, 0, 2, 3}, segment{0, 1};
     Figure f = bare({.points = square, .triangles = triangles}, {101, 101});
-    f.options.camera = *camera_of("+x");
+    std::tie(f.options.camera.azimuth, f.options.camera.elevation) = *angles_of("+x");
     f.options.camera.parallel = true;
     f.lines = {{.points = ends, .segments = segment, .width = 3, .colour = {255, 0, 0, 255}},
                {.points = behind, .segments = segment, .width = 3, .colour = {0, 255, 0, 255}}};

@@ -7,8 +7,10 @@
 #include <cmath>
 
 #include "barycert/base/text.hpp"
+#include "barycert/figure.hpp"
 
-namespace barycert::draw {
+namespace barycert {
+namespace draw {
 namespace {
 
 struct Table {
@@ -152,14 +154,6 @@ std::uint8_t byte_of(std::string_view hex) {
 
 }  // namespace
 
-std::vector<std::string_view> colour_map_names() {
-    std::vector<std::string_view> names;
-    names.reserve(tables.size() + 1);
-    for (const Table& t : tables) names.push_back(t.name);
-    names.emplace_back("gray");
-    return names;
-}
-
 std::optional<ColourMap> colour_map(std::string_view name) {
     const bool turned = name.ends_with("_r");
     if (turned) name.remove_suffix(2);
@@ -200,4 +194,14 @@ double ColourScale::place(double x) const {
     return log ? place_in_range(std::log10(x), std::log10(low), std::log10(high)) : place_in_range(x, low, high);
 }
 
-}  // namespace barycert::draw
+}  // namespace draw
+
+std::vector<std::string_view> colour_map_names() {
+    std::vector<std::string_view> names;
+    names.reserve(draw::tables.size() + 1);
+    for (const draw::Table& t : draw::tables) names.push_back(t.name);
+    names.emplace_back("gray");
+    return names;
+}
+
+}  // namespace barycert

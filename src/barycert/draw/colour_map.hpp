@@ -7,9 +7,7 @@ namespace barycert::draw {
 
 using ColourMap = std::array<Rgba, 256>;
 
-std::vector<std::string_view> colour_map_names();
-
-/// One of these; NAME_r is the same from its other end. Nothing if there is none.
+/// One of colour_map_names(); NAME_r is the same from its other end. Nothing if there is none.
 std::optional<ColourMap> colour_map(std::string_view name);
 
 /// Where x lies between the ends of a range: 0 at `low`, 1 at `high`, beyond them less or more. Where both are one

@@ -91,8 +91,8 @@ std::vector<std::uint32_t> multiplied(const Image& image) {
 
 class Painter {
 public:
-    Painter(cairo_surface_t* surface, const Picture& picture, const Ground& ground, double scale)
-        : to_(cairo_create(surface)), ground_(ground), scale_(scale) {
+    Painter(cairo_surface_t* surface, const Picture& picture, Rgba ground, double scale)
+        : to_(cairo_create(surface)), dark_(is_dark(ground)), scale_(scale) {
         cairo_scale(to_.get(), scale, scale);
         const Owned<cairo_font_options_t, cairo_font_options_destroy> options(cairo_font_options_create());
         cairo_font_options_set_antialias(options.get(), CAIRO_ANTIALIAS_GRAY);
@@ -101,8 +101,8 @@ public:
         cairo_set_font_options(to_.get(), options.get());
         cairo_set_font_face(to_.get(), Font::own().face());
         cairo_set_line_join(to_.get(), CAIRO_LINE_JOIN_ROUND);
-        if (ground.colour[3] != 0) {
-            set(ground.colour);
+        if (ground[3] != 0) {
+            set(ground);
             cairo_paint(to_.get());
         }
         for (const PictureItem& item : picture.items) add(item);
@@ -115,7 +115,7 @@ private:
 
     void add(const PictureItem& item) {
         using Kind = PictureItem::Kind;
-        const Look look = look_of(item.style, ground_.dark);
+        const Look look = look_of(item.style, dark_);
         set(item.colour.value_or(look.colour));
         switch (item.kind) {
             case Kind::lines:
@@ -184,12 +184,10 @@ private:
         cairo_pattern_set_filter(cairo_get_source(to_.get()), same ? CAIRO_FILTER_NEAREST : CAIRO_FILTER_GOOD);
         cairo_paint(to_.get());
         cairo_restore(to_.get());
-        cairo_set_source_rgb(to_.get(), 0, 0, 0);  // a surface for PDF keeps what it was given till here
-        cairo_surface_flush(cairo_get_target(to_.get()));
     }
 
     Owned<cairo_t, cairo_destroy> to_;
-    const Ground& ground_;
+    bool dark_;
     double scale_;
 };
 
@@ -202,7 +200,7 @@ cairo_status_t append(void* to, const unsigned char* bytes, unsigned int count) 
     }
 }
 
-Result<std::string> pdf_text(const Picture& picture, const Ground& ground) {
+Result<std::string> pdf_text(const Picture& picture, Rgba ground) {
     constexpr double points = 0.75;  // a pixel is 1/96 of an inch
     std::string bytes;
     const Owned<cairo_surface_t, cairo_surface_destroy> surface(
@@ -226,7 +224,7 @@ double text_width(std::string_view text, double size) {
     return Font::own().width(text, size);
 }
 
-Result<Image> drawn(const Picture& picture, const Ground& ground, double scale) {
+Result<Image> drawn(const Picture& picture, Rgba ground, double scale) {
     const double wide = std::round(scale * picture.width), tall = std::round(scale * picture.height);
     constexpr double most = 32767;
     if (!(wide <= most && tall <= most))
@@ -259,7 +257,7 @@ bool is_picture_name(std::string_view path) {
     return io::has_one_of(path, {".png", ".svg", ".pdf"});
 }
 
-Status write_picture(const std::string& path, const Picture& picture, const Ground& ground, double scale) {
+Status write_picture(const std::string& path, const Picture& picture, Rgba ground, double scale) {
     if (io::has_suffix(path, ".png")) {
         const Result<Image> image = drawn(picture, ground, scale);
         return image ? write_png(path, *image) : Status(image.error());

@@ -16,20 +16,16 @@ struct Named {
 
 constexpr Rgba ink{34, 34, 34, 255}, pale{228, 232, 235, 255}, soft{89, 99, 108, 255}, soft_pale{163, 173, 181, 255};
 
-constexpr std::array<Named, 14> looks{{
+constexpr std::array<Named, 10> looks{{
     {"head", ink, pale, 0, 0, 0, 16},
     {"title", ink, pale, 0, 0, 0, 14},
     {"small", soft, soft_pale, 0, 0, 0, 12},
     {"tick", ink, pale, 1, 0, 0, 12},
     {"grid", {228, 228, 228, 255}, {55, 63, 69, 255}},
     {"axis", {68, 68, 68, 255}, soft_pale},
-    {"box", {150, 150, 150, 255}, {110, 118, 126, 255}},
-    {"mesh", {40, 40, 40, 255}, {20, 20, 20, 255}, 0.5},
     {"median", ink, pale, 0, 3, 3},
     {"prediction", {0, 0, 0, 255}, {255, 255, 255, 255}, 2},
     {"level", {136, 136, 136, 255}, {136, 136, 136, 255}, 0, 8, 4},
-    {"bar", {0, 114, 178, 255}, {86, 180, 233, 255}},
-    {"bad", {200, 16, 46, 255}, {255, 122, 136, 255}},
     {"thick", ink, pale, 1.6},
 }};
 
@@ -64,6 +60,12 @@ void join_close_ones(std::vector<Label>& labels) {
 
 }  // namespace
 
+bool is_dark(Rgba ground) {
+    const auto& [r, g, b, opacity] = ground;
+    constexpr int half = 128 * 1000;
+    return opacity != 0 && 299 * r + 587 * g + 114 * b < half;
+}
+
 Rgba curve_colour(std::size_t i) {
     constexpr std::array<Rgba, 12> colours{{{213, 94, 0, 255},
                                             {0, 114, 178, 255},
@@ -86,7 +88,6 @@ Look look_of(std::string_view classes, bool dark) {
         const std::string_view word = classes.substr(0, classes.find(' '));
         classes.remove_prefix(std::min(word.size() + 1, classes.size()));
         if (word == "m" || word == "e") look.anchor = word[0];
-        if (word == "mark") look.filled = true;
         if (word.size() == 2 && word[0] == 'k')
             look.colour = curve_colour(static_cast<std::size_t>(word[1] - '0')), look.line = 1.6;
         const auto named = std::ranges::find(looks, word, &Named::name);
@@ -101,13 +102,12 @@ Look look_of(std::string_view classes, bool dark) {
 
 void Picture::mark(Pixel at, Mark mark, double r, const std::string& style) {
     const auto [x, y] = at;
-    const std::string filled = style + " mark";
-    if (mark == Mark::circle) circle(at, r, filled);
+    if (mark == Mark::circle) circle(at, r, style);
     if (mark == Mark::cross) lines({{{x - r, y - r}, {x + r, y + r}}, {{x - r, y + r}, {x + r, y - r}}}, style);
-    if (mark == Mark::square) area({{x - r, y - r}, {x + r, y - r}, {x + r, y + r}, {x - r, y + r}}, filled);
-    if (mark == Mark::diamond) area({{x - r, y}, {x, y - r}, {x + r, y}, {x, y + r}}, filled);
-    if (mark == Mark::up) area({{x - r, y + r}, {x, y - r}, {x + r, y + r}}, filled);
-    if (mark == Mark::down) area({{x - r, y - r}, {x, y + r}, {x + r, y - r}}, filled);
+    if (mark == Mark::square) area({{x - r, y - r}, {x + r, y - r}, {x + r, y + r}, {x - r, y + r}}, style);
+    if (mark == Mark::diamond) area({{x - r, y}, {x, y - r}, {x + r, y}, {x, y + r}}, style);
+    if (mark == Mark::up) area({{x - r, y + r}, {x, y - r}, {x + r, y + r}}, style);
+    if (mark == Mark::down) area({{x - r, y - r}, {x, y + r}, {x + r, y - r}}, style);
 }
 
 void place_labels(Picture& picture, std::vector<Label> labels, double top) {

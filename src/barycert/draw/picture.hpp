@@ -106,7 +106,6 @@ struct Look {
     double line = 1;         ///< its width
     double on = 0, off = 0;  ///< dashes; 0: none
     double size = 12;        ///< of text
-    bool filled = false;     ///< a mark
     char anchor = 's';       ///< of text: s, m or e
 };
 
@@ -128,14 +127,11 @@ std::string data_uri(std::string_view type, std::string_view bytes);
 /// Markup for a page, by classes, with one decimal, so that the same data give the same bytes.
 std::string svg_markup(const Picture& picture);
 
-/// The paper that a file is drawn on.
-struct Ground {
-    Rgba colour{255, 255, 255, 255};  ///< opacity 0: none
-    bool dark = false;                ///< what stands on it is light
-};
+/// True of a ground on which text and lines are light.
+bool is_dark(Rgba ground);
 
-/// A file of its own; text stays text.
-std::string svg_text(const Picture& picture, const Ground& ground = {});
+/// A file of its own; text stays text. Opacity 0: no ground.
+std::string svg_text(const Picture& picture, Rgba ground = {255, 255, 255, 255});
 
 /// Text at a point: beside it, where it keeps clear of other labels.
 struct Label {

@@ -24,15 +24,15 @@ std::string png_text(const Image& image) {
 class Writer {
 public:
     /// Without a ground it is markup for a page.
-    Writer(const Picture& picture, const Ground* ground) : ground_(ground) {
+    Writer(const Picture& picture, const Rgba* ground) : ground_(ground) {
         out_ = fmt::format(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" "
             "height=\"{1:.0f}\" role=\"img\"{3}>\n<title>{2}</title>\n",
             picture.width, picture.height, xml_escaped(picture.title),
             ground == nullptr ? "" : " font-family=\"DejaVu Sans,Verdana,sans-serif\"");
-        if (ground != nullptr && ground->colour[3] != 0)
+        if (ground != nullptr && (*ground)[3] != 0)
             out_ += fmt::format("<rect width=\"{:.0f}\" height=\"{:.0f}\" fill=\"{}\"/>\n", picture.width,
-                                picture.height, colour_text(ground->colour));
+                                picture.height, colour_text(*ground));
         for (const PictureItem& item : picture.items) add(item);
         out_ += "</svg>\n";
     }
@@ -48,7 +48,7 @@ private:
             const std::string own = item.colour ? fmt::format(" fill=\"{}\"", colour_text(*item.colour)) : "";
             return item.style.empty() ? own : fmt::format(" class=\"{}\"{}", item.style, own);
         }
-        const Look l = look_of(item.style, ground_->dark);
+        const Look l = look_of(item.style, is_dark(*ground_));
         const Rgba colour = item.colour.value_or(l.colour);
         if (paint == Paint::fill) return fmt::format(" fill=\"{}\"{}", colour_text(colour), opacity(colour));
         if (paint == Paint::text) {
@@ -113,7 +113,7 @@ private:
         out_ += fmt::format("<path{} d=\"{}\"/>\n", look(item, closed ? Paint::fill : Paint::stroke), path);
     }
 
-    const Ground* ground_;
+    const Rgba* ground_;
     std::string out_;
 };
 
@@ -170,7 +170,7 @@ std::string svg_markup(const Picture& picture) {
     return Writer(picture, nullptr).text();
 }
 
-std::string svg_text(const Picture& picture, const Ground& ground) {
+std::string svg_text(const Picture& picture, Rgba ground) {
     return Writer(picture, &ground).text();
 }
 

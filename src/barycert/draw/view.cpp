@@ -7,7 +7,6 @@
 #include "barycert/base/arena.hpp"
 #include "barycert/base/finite.hpp"
 #include "barycert/base/strict_math.hpp"
-#include "barycert/base/text.hpp"
 #include "barycert/base/vectors.hpp"
 #include "barycert/raster/colour_bytes.hpp"
 
@@ -61,14 +60,6 @@ Matrix4 fitting_camera(const Figure& figure, const Space& space, const ViewAxes&
         const Vector3 at = space(p);
         for (std::size_t k = 0; k < 3; ++k) along[k].add(dot(directions[k], at));
     });
-    // A box of axes is seen whole.
-    std::vector<Vector3> corners;
-    for (unsigned i = 0; i < 8 && figure.options.axes == Axes::box && !space.box[0].empty(); ++i) {
-        Vector3 at{};
-        for (std::size_t k = 0; k < 3; ++k) at[k] = (i >> k & 1U) != 0 ? space.box[k].high : space.box[k].low;
-        corners.push_back(space(at.data()));
-        for (std::size_t k = 0; k < 3; ++k) along[k].add(dot(directions[k], corners.back()));
-    }
     if (along[0].empty()) along = {Range{0, 0}, Range{0, 0}, Range{0, 0}};
     const auto& [x, y, z] = along;
     const auto& [r, u, t] = axes;
@@ -83,13 +74,12 @@ Matrix4 fitting_camera(const Figure& figure, const Space& space, const ViewAxes&
     } else {
         const double tangent = part * std::tan(0.5 * fovy * (std::numbers::pi / 180));
         // A point is in sight if its distance across is at most its distance along times the tangent.
-        const auto fit = [&, &x = x, &y = y, &r = r, &u = u, &t = t](const Vector3& at) {
+        for_points(figure, [&](const double* p) {
+            const Vector3 at = space(p);
             const double across =
                 std::max(std::abs(dot(r, at) - x.middle()) / aspect, std::abs(dot(u, at) - y.middle()));
             distance = std::max(distance, dot(t, at) + across / tangent);
-        };
-        for_points(figure, [&](const double* p) { fit(space(p)); });
-        for (const Vector3& at : corners) fit(at);
+        });
         // No error can occur: 0 < near <= far, and points lie in a box of side 2.
         projection = perspective(fovy, aspect, 0.9 * (distance - z.high), 1.1 * (distance - z.low)).value();
     }
@@ -208,38 +198,35 @@ private:
     }
 
     void add_arrow(const Vector3& from, const Vector3& along, double length, Rgba colour) {
-        constexpr std::size_t sides = 10;
-        const std::size_t k = std::fabs(along[0]) < 0.6 ? 0 : 1;
+        const std::int32_t sides = d_ == 2 ? 2 : 10;  // in the plane the left and the right one
         Vector3 other{};
-        other[d_ == 2 ? 2 : k] = 1;
+        other[d_ == 2 ? 2 : std::fabs(along[0]) < 0.6 ? 0 : 1] = 1;
         Vector3 across = cross(along, other);
         const double norm = std::sqrt(dot(across, across));
         for (double& x : across) x /= norm;
         const Vector3 third = cross(along, across);
-        const auto ring = [&](double at, double radius) {
+        const auto add_at = [&](double at, double radius, double turn) {
+            Vector3 p;
+            for (std::size_t j = 0; j < 3; ++j)
+                p[j] = from[j] + length * (at * along[j] + radius * (std::cos(turn) * across[j] +
+                                                                     (d_ == 2 ? 0 : std::sin(turn)) * third[j]));
+            add_point(p, 0);
+        };
+        const auto ring = [&](double at, double radius, std::int32_t points) {
             const auto first = static_cast<std::int32_t>(values.size());
-            for (std::size_t i = 0; i < sides; ++i) {
-                // In the plane the first and the middle one, on both sides.
-                const double turn = 2 * std::numbers::pi * static_cast<double>(i) / sides;
-                const double c = d_ == 2 ? (i < sides / 2 ? 1 : -1) : std::cos(turn), s = d_ == 2 ? 0 : std::sin(turn);
-                Vector3 p;
-                for (std::size_t j = 0; j < 3; ++j)
-                    p[j] = from[j] + length * (at * along[j] + radius * (c * across[j] + s * third[j]));
-                add_point(p, 0);
-            }
+            for (std::int32_t i = 0; i < points; ++i) add_at(at, radius, 2 * std::numbers::pi * i / sides);
             return first;
         };
-        const auto between = [&](std::int32_t a, std::int32_t b) {
-            for (std::size_t i = 0; i < sides; ++i) {
-                const auto j = static_cast<std::int32_t>(i), n = static_cast<std::int32_t>((i + 1) % sides);
-                add_triangle({a + j, a + n, b + n}, colour);
-                add_triangle({a + j, b + n, b + j}, colour);
+        const std::int32_t tail = ring(0, 0.03, sides), neck = ring(0.7, 0.03, sides), wide = ring(0.7, 0.09, sides),
+                           tip = ring(1, 0, 1);
+        for (std::int32_t i = 0; i < (d_ == 2 ? 1 : sides); ++i) {
+            const std::int32_t n = (i + 1) % sides;
+            for (const auto& [a, b] : {std::pair(tail, neck), {neck, wide}}) {
+                add_triangle({a + i, a + n, b + n}, colour);
+                add_triangle({a + i, b + n, b + i}, colour);
             }
-        };
-        const std::int32_t tail = ring(0, 0.03), neck = ring(0.7, 0.03), wide = ring(0.7, 0.09), tip = ring(1, 0);
-        between(tail, neck);
-        between(neck, wide);
-        between(wide, tip);
+            add_triangle({wide + i, wide + n, tip}, colour);
+        }
     }
 
     std::size_t d_;
@@ -302,7 +289,7 @@ std::array<double, 2> View::seen(std::size_t axis) const {
     return {middle - half, middle + half};
 }
 
-Image View::draw(const ColourScale& scale, std::span<const FigureLines> extra, FigureCounts& counts) const {
+Image View::draw(const ColourScale& scale, FigureCounts& counts) const {
     const Parts parts(figure_, space_, axes_, scale);
     const FigureOptions& o = figure_.options;
     std::vector<raster::Line> lines;
@@ -322,7 +309,6 @@ Image View::draw(const ColourScale& scale, std::span<const FigureLines> extra, F
         }
     };
     for (const FigureLines& l : figure_.lines) add(l);
-    for (const FigureLines& l : extra) add(l);
     const std::vector<double> clip = in_clip_space(parts.positions, to_clip_);
     const bool by_value = std::ranges::any_of(parts.paints, &Paint::by_value);
     raster::Layers layers{.size = window_,
@@ -348,61 +334,6 @@ Image View::draw(const ColourScale& scale, std::span<const FigureLines> extra, F
     };
     counts.without_value = parts.without_value;
     return raster::draw(layers, counts.render);
-}
-
-Result<ColourScale> scale_of(const Figure& figure, FigureCounts& counts) {
-    const FigureOptions& o = figure.options;
-    ColourScale scale;
-    const auto map = colour_map(o.colour_map);
-    if (!map)
-        return file_error({}, "no such map of colours",
-                          fmt::format("{}, perhaps with _r", fmt::join(colour_map_names(), ", ")),
-                          '"' + o.colour_map + '"');
-    scale.map = *map;
-    scale.log = o.log;
-    const auto for_values = [&](auto f) {
-        for (const FigureSurface& s : figure.surfaces) {
-            for (const std::int32_t i : s.triangles)
-                if (!s.point_values.empty()) f(s.point_values[static_cast<std::size_t>(i)]);
-            for (const double x : s.triangle_values) f(x);
-        }
-        for (const FigureArrows& a : figure.arrows)
-            for (const double x : a.values) f(x);
-        for (std::size_t i = 0; figure.grid && i < figure.grid->values.size(); ++i)
-            if (is_drawn(*figure.grid, false, i)) f(figure.grid->values[i]);
-    };
-    const auto counts_for = [&](double x) { return std::isfinite(x) && (!o.log || x > 0); };
-    Range range;
-    constexpr std::size_t most_labels = 12;
-    for_values([&](double x) {
-        if (!counts_for(x)) return;
-        range.add(x);
-        const auto at = std::ranges::lower_bound(scale.labels, x);
-        if (o.labels && scale.labels.size() <= most_labels && (at == scale.labels.end() || *at != x))
-            scale.labels.insert(at, x);
-    });
-    if (scale.labels.size() > most_labels)
-        return file_error({}, "too many labels", fmt::format("at most {} values that differ", most_labels), "more",
-                          "draw it without labels");
-    if (o.range) range = {o.range->first, o.range->second};
-    if (o.log && !range.empty() && !(range.low > 0))
-        return file_error({}, "the range of logarithmic colours", "two numbers above 0", base::shortest(range.low));
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-    // A zero may come with either sign: the bar says 0.
-    scale.low = counts.low = range.empty() ? nan : range.low + 0.0;
-    scale.high = counts.high = range.empty() ? nan : range.high + 0.0;
-    for_values([&](double x) {
-        if (counts_for(x) && x < scale.low) ++counts.below;
-        if (counts_for(x) && x > scale.high) ++counts.above;
-    });
-    if (!figure.grid) return scale;
-    GridCounts& of_grid =
-        counts.grid = {.below = counts.below, .above = counts.above, .low = scale.low, .high = scale.high};
-    for (std::size_t i = 0; i < figure.grid->values.size(); ++i) {
-        const bool valid = figure.grid->valid.empty() || figure.grid->valid[i] != 0;
-        ++(is_drawn(*figure.grid, o.log, i) ? of_grid.drawn : valid ? of_grid.not_finite : of_grid.outside);
-    }
-    return scale;
 }
 
 }  // namespace barycert::draw

@@ -3,23 +3,14 @@
 
 #include <cmath>
 
+#include "barycert/base/range.hpp"
 #include "barycert/draw/colour_map.hpp"
 #include "barycert/figure.hpp"
 #include "barycert/raster/layers.hpp"
 
 namespace barycert::draw {
 
-struct Range {
-    double low = HUGE_VAL, high = -HUGE_VAL;
-
-    void add(double x) {
-        low = std::min(low, x);
-        high = std::max(high, x);
-    }
-    bool empty() const { return !(low <= high); }
-    double middle() const { return 0.5 * low + 0.5 * high; }
-    double half() const { return 0.5 * high - 0.5 * low; }
-};
+using base::Range;
 
 /// Coordinates moved and scaled so that the middle of the box of what is drawn is the origin and its longest side 2.
 struct Space {
@@ -32,6 +23,12 @@ struct Space {
         Vector3 at{};
         // Halves, for the difference of two coordinates may be too large a number.
         for (std::size_t k = 0; k < dimension; ++k) at[k] = 2 * ((0.5 * point[k] - 0.5 * box[k].middle()) / half);
+        return at;
+    }
+    /// Of the box; bit k of the index is the side along axis k.
+    Vector3 corner(unsigned i) const {
+        Vector3 at;
+        for (std::size_t k = 0; k < 3; ++k) at[k] = (i >> k & 1U) != 0 ? box[k].high : box[k].low;
         return at;
     }
 };
@@ -56,8 +53,7 @@ public:
     const Space& space() const { return space_; }
     const ViewAxes& axes() const { return axes_; }
 
-    /// `extra`: more lines, between points.
-    Image draw(const ColourScale& scale, std::span<const FigureLines> extra, FigureCounts& counts) const;
+    Image draw(const ColourScale& scale, FigureCounts& counts) const;
 
 private:
     const Figure& figure_;
@@ -66,30 +62,5 @@ private:
     ViewAxes axes_;
     Matrix4 to_clip_;
 };
-
-/// Values of a grid as colours, row by row from the top.
-class GridImage {
-public:
-    /// Precondition: the grid is consistent.
-    GridImage(const FigureGrid& grid, const ColourScale& scale);
-
-    std::size_t width() const { return width_; }
-    std::size_t height() const { return height_; }
-    /// RGBA; nothing is clear.
-    void row(std::size_t r, std::uint8_t* pixels) const;
-
-private:
-    const FigureGrid& grid_;
-    const ColourScale& scale_;
-    std::size_t width_, height_;
-};
-
-/// True if it has a colour.
-inline bool is_drawn(const FigureGrid& grid, bool log, std::size_t i) {
-    return (grid.valid.empty() || grid.valid[i] != 0) && std::isfinite(grid.values[i]) && (!log || grid.values[i] > 0);
-}
-
-/// The range, or labels, of a figure's values. Counts what is beyond it.
-Result<ColourScale> scale_of(const Figure& figure, FigureCounts& counts);
 
 }  // namespace barycert::draw

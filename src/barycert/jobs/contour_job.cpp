@@ -164,6 +164,9 @@ public:
         if (picture && job_.value && mesh_.dimension == 2)
             refuse(job_.output, "iso-lines cannot be written as a picture", ".vtp or .ply", "", "choose another name");
         const bool exact = picture && job_.plane && (job_.figure.samples == 1 || is_computed_at_points());
+        if (exact && job_.edges)
+            refuse("", "edges of cells are drawn over triangles, not over values at pixels", "more than one sample",
+                   "one, or a field that is computed at each point");
         Cut cut = exact ? cut_plane({.threads = job_.threads}) : cut_with_fields();
         report_.counts = cut.counts;
         report_.points = cut.surface.point_count();

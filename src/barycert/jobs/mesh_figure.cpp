@@ -40,12 +40,12 @@ Surface behind(const Surface& whole, const Plane& plane) {
         for (const Field& f : whole.point_fields) all.push_back(f.data[i]);
         return all;
     };
-    const auto add = [&](std::int32_t a, std::int32_t b, const std::vector<double>& numbers_of) {
+    const auto add = [&](std::int32_t a, std::int32_t b, const std::vector<double>& at_point) {
         const auto [at, is_new] = numbers.try_emplace(std::minmax(a, b), static_cast<std::int32_t>(out.point_count()));
         if (is_new) {
-            out.points.insert(out.points.end(), numbers_of.begin(), numbers_of.begin() + 3);
+            out.points.insert(out.points.end(), at_point.begin(), at_point.begin() + 3);
             for (std::size_t k = 0; k < out.point_fields.size(); ++k)
-                out.point_fields[k].data.push_back(numbers_of[3 + k]);
+                out.point_fields[k].data.push_back(at_point[3 + k]);
             out.mesh_edges.push_back(whole.mesh_edges[2 * static_cast<std::size_t>(a)]);
             out.mesh_edges.push_back(whole.mesh_edges[2 * static_cast<std::size_t>(b) + (a == b ? 1 : 0)]);
         }
@@ -89,6 +89,26 @@ Surface cells_of(const Mesh& mesh, const CutOptions& fields) {
     return surface;
 }
 
+/// An edge of a surface, by its points, and one of its triangles.
+using Edge = std::pair<std::pair<std::int32_t, std::int32_t>, std::int32_t>;
+
+/// f(edges): for each edge all that it is of triangles.
+template <class F>
+void for_edges(const Surface& surface, F f) {
+    std::vector<Edge> all;
+    all.reserve(surface.cells.size());
+    for (std::size_t t = 0; t < surface.cell_count(); ++t) {
+        for (std::size_t c = 0; c < 3; ++c)
+            all.emplace_back(std::minmax({surface.cells[3 * t + c], surface.cells[3 * t + (c + 1) % 3]}),
+                             static_cast<std::int32_t>(t));
+    }
+    std::ranges::sort(all);
+    for (std::size_t i = 0, first = 0; i < all.size(); first = i) {
+        while (i < all.size() && all[i].first == all[first].first) ++i;
+        f(std::span<const Edge>(all).subspan(first, i - first));
+    }
+}
+
 FigureSurface coloured(const Surface& s) {
     FigureSurface out{.points = s.points, .triangles = s.cells};
     if (!s.point_fields.empty()) {
@@ -100,16 +120,6 @@ FigureSurface coloured(const Surface& s) {
 }
 
 }  // namespace
-
-/// An edge of a surface, by its points, and of which triangle.
-struct MeshFigure::Edge {
-    std::pair<std::int32_t, std::int32_t> points;
-    std::int32_t triangle;
-
-    friend bool operator<(const Edge& a, const Edge& b) {
-        return std::pair(a.points, a.triangle) < std::pair(b.points, b.triangle);
-    }
-};
 
 MeshFigure::MeshFigure(const Mesh& mesh, const SceneChoice& show, std::string colours, int threads, Notes& notes)
     : mesh_(&mesh), show_(show), colours_(std::move(colours)), threads_(threads), notes_(notes) {
@@ -245,18 +255,6 @@ void MeshFigure::add_lines(const std::vector<double>& points, std::vector<std::i
     figure_.lines.push_back({points, indices_.emplace_back(std::move(segments)), width, colour});
 }
 
-std::vector<MeshFigure::Edge> MeshFigure::edges_of(const Surface& surface) const {
-    std::vector<Edge> edges;
-    edges.reserve(surface.cells.size());
-    for (std::size_t t = 0; t < surface.cell_count(); ++t) {
-        for (std::size_t c = 0; c < 3; ++c)
-            edges.push_back({std::minmax(surface.cells[3 * t + c], surface.cells[3 * t + (c + 1) % 3]),
-                             static_cast<std::int32_t>(t)});
-    }
-    std::ranges::sort(edges, {}, [](const Edge& e) { return std::pair(e.points, e.triangle); });
-    return edges;
-}
-
 /// Not one that cuts a face of a cell in two, or lies in it. Of nodes.
 bool MeshFigure::is_cell_edge(Mesh::Index cell, Mesh::Index a, Mesh::Index b) const {
     const auto& inside = mesh_->shapes.inside;
@@ -272,32 +270,27 @@ bool MeshFigure::is_cell_edge(Mesh::Index cell, Mesh::Index a, Mesh::Index b) co
 
 /// Those of cells, where the surface is a boundary; those where cells meet, where it cuts through them.
 void MeshFigure::add_edges(const Surface& surface) {
-    const std::vector<Edge> edges = edges_of(surface);
     std::vector<std::int32_t> segments;
-    for (std::size_t i = 0; i < edges.size();) {
-        const std::size_t first = i;
-        while (i < edges.size() && edges[i].points == edges[first].points) ++i;
-        const auto cell_of = [&](std::size_t e) {
-            return surface.mesh_cells[static_cast<std::size_t>(edges[e].triangle)];
-        };
-        const auto [a, b] = edges[first].points;
+    for_edges(surface, [&](std::span<const Edge> edge) {
+        const auto cell_of = [&](const Edge& e) { return surface.mesh_cells[static_cast<std::size_t>(e.second)]; };
+        const auto [a, b] = edge[0].first;
         std::set<Mesh::Index> nodes;
-        for (const std::int32_t p : {a, b})
-            for (const std::size_t end : {0U, 1U})
-                nodes.insert(surface.mesh_edges[2 * static_cast<std::size_t>(p) + end]);
+        for (const std::size_t p : {static_cast<std::size_t>(a), static_cast<std::size_t>(b)})
+            nodes.insert({surface.mesh_edges[2 * p], surface.mesh_edges[2 * p + 1]});
         const bool same =
-            i - first == 2 && mesh_->cell_number(cell_of(first)) == mesh_->cell_number(cell_of(first + 1));
+            edge.size() == 2 && mesh_->cell_number(cell_of(edge[0])) == mesh_->cell_number(cell_of(edge[1]));
         // An edge of the mesh, or a piece of one; or a line through facets and cells.
-        if (nodes.size() == 2 ? !is_cell_edge(cell_of(first), *nodes.begin(), *nodes.rbegin()) : same) continue;
-        segments.insert(segments.end(), {a, b});
-    }
+        if (nodes.size() == 2 ? is_cell_edge(cell_of(edge[0]), *nodes.begin(), *nodes.rbegin()) : !same)
+            segments.insert(segments.end(), {a, b});
+    });
     add_lines(figure_.dimension == 2 ? numbers_.emplace_back(surface.points) : surface.points, std::move(segments),
               thin, dark_grey);
 }
 
 /// Where the boundary bends by 30 degrees or more; in the plane all of it.
 void MeshFigure::add_outline() {
-    const Surface& surface = surfaces_.emplace_back(boundary(*mesh_, {.threads = threads_}).value());
+    Surface whole = boundary(*mesh_, {.threads = threads_}).value();
+    const Surface& surface = surfaces_.emplace_back(show_.plane ? behind(whole, *show_.plane) : std::move(whole));
     if (mesh_->dimension == 2) return add_lines(surface.points, surface.cells, thick, dark_grey);
     const auto normal = [&](std::int32_t t) {
         std::array<Vector, 3> p{};
@@ -311,30 +304,31 @@ void MeshFigure::add_outline() {
         return length > 0 ? Vector{n[0] / length, n[1] / length, n[2] / length} : n;
     };
     constexpr double bend = 0.866;  // cosine of 30 degrees
-    const std::vector<Edge> edges = edges_of(surface);
     std::vector<std::int32_t> segments;
-    for (std::size_t i = 0; i < edges.size();) {
-        const std::size_t first = i;
-        while (i < edges.size() && edges[i].points == edges[first].points) ++i;
-        if (i - first == 2 && base::dot(normal(edges[first].triangle), normal(edges[first + 1].triangle)) > bend)
-            continue;
-        segments.insert(segments.end(), {edges[first].points.first, edges[first].points.second});
-    }
+    for_edges(surface, [&](std::span<const Edge> edge) {
+        if (edge.size() != 2 || base::dot(normal(edge[0].second), normal(edge[1].second)) <= bend)
+            segments.insert(segments.end(), {edge[0].first.first, edge[0].first.second});
+    });
     add_lines(surface.points, std::move(segments), thick, dark_grey);
 }
 
 /// Cells by their numbers in the file, whole.
 void MeshFigure::add_marked() {
     std::vector<Mesh::Index> cells;
-    std::vector<Mesh::Index> marked = show_.marked;
+    std::vector<Mesh::Index> marked = show_.marked, found;
     std::ranges::sort(marked);
     for (std::size_t i = 0; i < mesh_->cell_count(); ++i) {
         if (std::ranges::binary_search(marked, mesh_->cell_number(static_cast<Mesh::Index>(i))))
             cells.push_back(static_cast<Mesh::Index>(i));
     }
-    if (cells.empty())
-        refuse("", "no such cell to mark", "numbers of cells as they are in the file, from 0",
-               fmt::format("{}", fmt::join(show_.marked, ", ")));
+    for (const Mesh::Index cell : cells) found.push_back(mesh_->cell_number(cell));
+    std::ranges::sort(found);
+    for (const Mesh::Index number : marked)
+        if (!std::ranges::binary_search(found, number))
+            refuse("", "no such cell to mark", "numbers of cells that are drawn, as they are in the file, from 0",
+                   std::to_string(number));
+    if (!colours_.empty() && figure_.surfaces.empty())
+        refuse("", "nothing to colour by job.field", "a surface beside marked cells, which are red", "none");
     const mesh::Part part = mesh::part_of(*mesh_, std::move(cells));
     Surface& surface = surfaces_.emplace_back(
         part.mesh.dimension == 3 ? boundary(part.mesh, {.threads = threads_}).value() : cells_of(part.mesh, {}));

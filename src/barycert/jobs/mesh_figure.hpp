@@ -28,8 +28,6 @@ public:
     }
 
 private:
-    struct Edge;
-
     void choose_cells();
     CutOptions carried();
     void add_cut_open(const Surface& surface);
@@ -37,7 +35,6 @@ private:
     void add_arrows();
     void add_marked();
     void add_lines(const std::vector<double>& points, std::vector<std::int32_t> segments, double width, Rgba colour);
-    std::vector<Edge> edges_of(const Surface& surface) const;
     void add_edges(const Surface& surface);
     bool is_cell_edge(Mesh::Index cell, Mesh::Index a, Mesh::Index b) const;
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "barycert/base/range.hpp"
 #include "barycert/base/strict_math.hpp"
 #include "barycert/draw/axes.hpp"
 #include "barycert/draw/files.hpp"
@@ -38,16 +39,13 @@ using draw::Axis, draw::Curve, draw::Pixel, draw::Plot;
 
 /// Numbers of all curves, with some room above and below.
 void fit(Axis& axis, const std::vector<Curve>& curves, double Pixel::*of) {
-    double low = HUGE_VAL, high = -HUGE_VAL;
-    for (const Curve& c : curves) {
-        for (const Pixel& p : c.line) {
-            if (!std::isfinite(p.y)) continue;
-            low = std::min(low, p.*of);
-            high = std::max(high, p.*of);
-        }
-    }
-    if (!(low <= high)) low = 0, high = 1;
-    const double whole = high / 2 - low / 2, room = of == &Pixel::y ? whole / 10 : 0;
+    base::Range range;
+    for (const Curve& c : curves)
+        for (const Pixel& p : c.line)
+            if (std::isfinite(p.y)) range.add(p.*of);
+    if (range.empty()) range = {0, 1};
+    const auto& [low, high] = range;
+    const double room = of == &Pixel::y ? range.half() / 10 : 0;
     const double least = low == high ? (low == 0 ? 1 : std::fabs(low) / 10) : room;
     axis.low = low - least;
     axis.high = high + least;
@@ -91,7 +89,7 @@ public:
         if (!job_.figure.unit.empty()) plot.y.title += (all.size() == 1 ? " (" : "(") + job_.figure.unit + ")";
         draw_axes(plot.picture, plot.x, plot.y);
         plot.curves(all, {}, over_time);
-        return draw::write_picture(job_.plot, plot.picture, {job_.figure.background}, job_.figure.resolution);
+        return draw::write_picture(job_.plot, plot.picture, job_.figure.background, job_.figure.resolution);
     }
 
 private:

@@ -158,8 +158,9 @@ void draw_mesh(const RenderJob& job, RenderReport& report) {
     const jobs::ThreadLimit limit(job.threads);
     const Mesh mesh = jobs::open_mesh_with_fields(job, job.threads, report);
     if (mesh.cells.empty()) refuse(job.mesh, "the mesh has no cells", "", "", "there is nothing to draw");
+    if (job.figure.scale > 0 && mesh.dimension == 3)
+        refuse(job.mesh, "job.scale is for meshes in the plane", "", "tetrahedra in space", "use job.size");
     report.input = job.mesh;
-    report.size = job.figure.size;
     report.samples = job.figure.samples;
     report.method = job.figure.method;
     report.rounding = job.figure.rounding;
@@ -171,8 +172,9 @@ void draw_mesh(const RenderJob& job, RenderReport& report) {
         if (options.bar_title.empty()) options.bar_title = job.field.empty() ? job.show.iso_field : job.field;
         FigureCounts counts;
         write_figure(job.output, figure.figure(options), &counts).value();
+        report.size = counts.size;
         report.counts = counts.render;
-        if (!options.bar_title.empty())
+        if (!std::isnan(counts.low) || counts.without_value != 0)
             report.colours = {options.bar_title, counts.low, counts.high, counts.without_value};
     } catch (const Exception& e) {
         Error error = e.error();

@@ -27,6 +27,9 @@ void check_job(const SampleJob& job, const std::vector<jobs::Step>& steps) {
         refuse("", given == 0 ? "no points" : "job.points, job.map and job.line",
                "one of job.points FILE, job.map FILE and job.line A:B", given == 0 ? "none" : "several",
                "a map contains its points");
+    if (job.line && !(job.columns.empty() && job.keep.empty()))
+        refuse("", std::string(job.keep.empty() ? "job.columns" : "job.keep") + " cannot be combined with job.line", "",
+               "", "points of a line have no columns");
     if (!job.plot.empty() && !is_figure_name(job.plot)) jobs::refuse_output(job.plot, ".png, .svg or .pdf");
     if (!job.plot.empty() && (job.all_steps || jobs::has_step_place(job.output)))
         refuse(job.plot, "a plot of outputs of steps", "the steps of a field as columns of one output", "",

@@ -1,4 +1,4 @@
-/// Triangles with numbers at their vertices, and lines and dots over them, drawn on all threads into pixels of several
+/// Triangles with numbers at their vertices, and lines over them, drawn on all threads into pixels of several
 /// samples each.
 ///
 /// A pixel has samples * samples samples, at the centres of a raster that is so much finer: each is covered by the
