@@ -79,7 +79,7 @@ answers() {
     done
     wait
     # shellcheck disable=SC2086
-    "$compiler" -pthread $objects -lhwy -o "$build/$name" || { fault "$name does not build"; return; }
+    "$compiler" -pthread $objects -lhwy -lfmt -o "$build/$name" || { fault "$name does not build"; return; }
     echo "$name:"
     "$build/$name" || fault "$name: answers differ from the pinned number"
 }

@@ -42,7 +42,7 @@ for processor in "$@"; do
     done
     wait
     # shellcheck disable=SC2086
-    g++ -pthread $objects -lhwy -o "$build/same_bytes-$processor" || { status=1; continue; }
+    g++ -pthread $objects -lhwy -lfmt -o "$build/same_bytes-$processor" || { status=1; continue; }
     case $processor in
         x86-64-v4) needs=avx512dq ;;
         x86-64-v3) needs=avx2 ;;

@@ -31,7 +31,7 @@ for compiler in g++ clang++; do
             objects="$objects $object"
         done
         wait
-        $compiler -pthread $objects -lhwy -o "$build/same_bytes$compiler$level" || exit 1
+        $compiler -pthread $objects -lhwy -lfmt -o "$build/same_bytes$compiler$level" || exit 1
         echo "$compiler $level:"
         "$build/same_bytes$compiler$level" || status=1
         ran=$((ran + 1))
