@@ -29,6 +29,7 @@ LICENCES = {
     "expat": "MIT",
     "fast-float": "Apache-2.0 OR MIT",
     "fmtlib": "MIT",
+    "fontconfig": "HPND-sell-variant",
     "freetype": "FTL",
     "gcc-12": "GPL-3.0-or-later WITH GCC-exception-3.1",
     "gcc-14": "GPL-3.0-or-later WITH GCC-exception-3.1",
@@ -54,6 +55,11 @@ LICENCES = {
     "xz-utils": "LicenseRef-public-domain",
     "zlib": "Zlib",
 }
+# Files of the project that are others' work and part of the library: name, version, licence, file of that.
+EMBEDDED = [
+    ("DejaVu Sans", "2.37", "Bitstream-Vera", "data/fonts/LICENSE"),
+    ("three.js", "0.160.1", "MIT", "data/viewer/LICENSE"),
+]
 PUBLIC_DOMAIN = {
     "licenseId": "LicenseRef-public-domain",
     "name": "Public domain",
@@ -192,6 +198,24 @@ def main():
                     "comment": f"{len(compiled_in[name])} of its headers are compiled in",
                 }
             )
+
+    for name, version, licence, notice in EMBEDDED:
+        packages.append(
+            {
+                "SPDXID": identifier(name),
+                "name": name,
+                "versionInfo": version,
+                "downloadLocation": "NOASSERTION",
+                "filesAnalyzed": False,
+                "licenseConcluded": licence,
+                "licenseDeclared": licence,
+                "copyrightText": "NOASSERTION",
+                "comment": notice,
+            }
+        )
+        relationships.append(
+            {"spdxElementId": main_id, "relationshipType": "CONTAINS", "relatedSpdxElement": identifier(name)}
+        )
 
     concluded = "Apache-2.0"
     if any("AGPL" in licence for licence in licences.values()):

@@ -78,6 +78,7 @@ if any(name.startswith("libcgal") for name in of):
 else:
     assert of["barycert"] == "Apache-2.0"
 assert os.path.exists(os.path.join(work, "notices", "libeigen3-dev.gz"))
+assert of["three.js"] == "MIT" and of["DejaVu Sans"] == "Bitstream-Vera"
 if os.path.exists(os.path.join(build, "bin/barycert-tetgen")):
     mesher = bill("barycert-tetgen", "bin/barycert-tetgen")
     check_form(mesher)

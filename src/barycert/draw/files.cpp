@@ -7,17 +7,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "barycert/base/embedded.hpp"
 #include "barycert/base/output_file.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
 
-// The font's file, as it is in data/fonts.
-asm(".section .rodata\n"
-    ".hidden barycert_font\n.global barycert_font\n.hidden barycert_font_end\n.global barycert_font_end\n"
-    "barycert_font: .incbin \"" BARYCERT_FONT
-    "\"\nbarycert_font_end: .byte 0\n"
-    ".previous\n");
-extern "C" const unsigned char barycert_font[], barycert_font_end[];  // NOLINT(modernize-avoid-c-arrays)
+// As it is in data/fonts.
+BARYCERT_EMBED(barycert_font, BARYCERT_FONT);
 
 namespace barycert::draw {
 namespace {
@@ -58,7 +54,8 @@ public:
 private:
     Font() {
         const auto size = static_cast<FT_Long>(&barycert_font_end[0] - &barycert_font[0]);
-        if (FT_Init_FreeType(&library_) != 0 || FT_New_Memory_Face(library_, &barycert_font[0], size, 0, &face_) != 0)
+        const auto* const bytes = reinterpret_cast<const FT_Byte*>(&barycert_font[0]);
+        if (FT_Init_FreeType(&library_) != 0 || FT_New_Memory_Face(library_, bytes, size, 0, &face_) != 0)
             throw std::bad_alloc();  // nothing else can be wrong with a font that is built in
         cairo_.reset(cairo_ft_font_face_create_for_ft_face(face_, FT_LOAD_NO_HINTING));
         // Cairo keeps what it made of the face in a store of its own: it ends the library when that is done with.

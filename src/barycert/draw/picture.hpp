@@ -121,8 +121,14 @@ std::string clean_text(std::string_view text);
 /// As an XML reader takes it back, clean.
 std::string xml_escaped(std::string_view text);
 
-/// Bytes as "data:TYPE;base64,...".
-std::string data_uri(std::string_view type, std::string_view bytes);
+/// RFC 4648's, with padding.
+std::string base64(std::string_view bytes);
+inline std::string data_uri(const std::string& type, std::string_view bytes) {
+    return "data:" + type + ";base64," + base64(bytes);
+}
+
+/// The bytes of a .png file.
+std::string png_text(const Image& image);
 
 /// Markup for a page, by classes, with one decimal, so that the same data give the same bytes.
 std::string svg_markup(const Picture& picture);

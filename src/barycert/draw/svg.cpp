@@ -11,16 +11,6 @@ std::string colour_text(Rgba c) {
     return fmt::format("#{:02x}{:02x}{:02x}", c[0], c[1], c[2]);
 }
 
-std::string png_text(const Image& image) {
-    const auto row = static_cast<std::size_t>(4 * image.width);
-    std::vector<std::uint8_t> pixels;
-    pixels.reserve(image.data.size());
-    for (std::size_t at = image.data.size(); at >= row; at -= row)
-        pixels.insert(pixels.end(), image.data.begin() + static_cast<std::ptrdiff_t>(at - row),
-                      image.data.begin() + static_cast<std::ptrdiff_t>(at));
-    return io::png_bytes(static_cast<std::size_t>(image.width), pixels).value();
-}
-
 class Writer {
 public:
     /// Without a ground it is markup for a page.
@@ -153,9 +143,19 @@ std::string xml_escaped(std::string_view text) {
     return out;
 }
 
-std::string data_uri(std::string_view type, std::string_view bytes) {
+std::string png_text(const Image& image) {
+    const auto row = static_cast<std::size_t>(4 * image.width);
+    std::vector<std::uint8_t> pixels;
+    pixels.reserve(image.data.size());
+    for (std::size_t at = image.data.size(); at >= row; at -= row)
+        pixels.insert(pixels.end(), image.data.begin() + static_cast<std::ptrdiff_t>(at - row),
+                      image.data.begin() + static_cast<std::ptrdiff_t>(at));
+    return io::png_bytes(static_cast<std::size_t>(image.width), pixels).value();
+}
+
+std::string base64(std::string_view bytes) {
     constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string out = fmt::format("data:{};base64,", type);
+    std::string out;
     for (std::size_t i = 0; i < bytes.size(); i += 3) {
         const std::size_t left = bytes.size() - i;
         std::uint32_t group = 0;

@@ -15,6 +15,7 @@
 #include "barycert/mesh/pulling.hpp"
 #include "barycert/predicates.hpp"
 #include "barycert/raster.hpp"
+#include "barycert/surface/edges.hpp"
 
 namespace barycert::jobs {
 namespace {
@@ -77,36 +78,12 @@ Surface behind(const Surface& whole, const Plane& plane) {
     return out;
 }
 
+/// Of a mesh in the plane.
 Surface cells_of(const Mesh& mesh, const CutOptions& fields) {
-    Surface surface;
-    surface.points = mesh.points;
-    surface.cells = mesh.cells;
+    Surface surface = surface::facets_of(mesh);
     for (const Field* f : fields.point_fields) surface.point_fields.push_back(*f);
     for (const Field* f : fields.cell_fields) surface.cell_fields.push_back(*f);
-    for (std::size_t i = 0; i < mesh.cell_count(); ++i) surface.mesh_cells.push_back(static_cast<Mesh::Index>(i));
-    for (std::size_t i = 0; i < mesh.point_count(); ++i)
-        surface.mesh_edges.insert(surface.mesh_edges.end(), 2, static_cast<Mesh::Index>(i));
     return surface;
-}
-
-/// An edge of a surface, by its points, and one of its triangles.
-using Edge = std::pair<std::pair<std::int32_t, std::int32_t>, std::int32_t>;
-
-/// f(edges): for each edge all that it is of triangles.
-template <class F>
-void for_edges(const Surface& surface, F f) {
-    std::vector<Edge> all;
-    all.reserve(surface.cells.size());
-    for (std::size_t t = 0; t < surface.cell_count(); ++t) {
-        for (std::size_t c = 0; c < 3; ++c)
-            all.emplace_back(std::minmax({surface.cells[3 * t + c], surface.cells[3 * t + (c + 1) % 3]}),
-                             static_cast<std::int32_t>(t));
-    }
-    std::ranges::sort(all);
-    for (std::size_t i = 0, first = 0; i < all.size(); first = i) {
-        while (i < all.size() && all[i].first == all[first].first) ++i;
-        f(std::span<const Edge>(all).subspan(first, i - first));
-    }
 }
 
 FigureSurface coloured(const Surface& s) {
@@ -186,6 +163,18 @@ CutOptions MeshFigure::carried() {
     return options;
 }
 
+draw::PageScene MeshFigure::page(const FigureOptions& options) const {
+    if (!figure_.arrows.empty() || options.labels)
+        refuse("", "pages have neither arrows nor labels", "surfaces and lines", "", "name a .png, .svg or .pdf file");
+    draw::PageScene scene{mesh_, drawn_, {}, {}, colours_, figure(options)};
+    const auto add = [](std::vector<const Field*>& to, const std::vector<Field>& fields) {
+        for (const Field& f : fields) to.push_back(&f);
+    };
+    add(scene.point_fields, mesh_->point_fields);
+    add(scene.cell_fields, mesh_->cell_fields);
+    return scene;
+}
+
 void MeshFigure::add_mesh() {
     const CutOptions options = carried();
     const bool plane = mesh_->dimension == 2;
@@ -233,6 +222,7 @@ void MeshFigure::add(Surface surface) {
     if (surface.cells.empty()) return;
     const Surface& kept = surfaces_.emplace_back(std::move(surface));
     figure_.surfaces.push_back(coloured(kept));
+    drawn_.push_back({&kept});
     if (show_.edges) add_edges(kept);
 }
 
@@ -271,8 +261,10 @@ bool MeshFigure::is_cell_edge(Mesh::Index cell, Mesh::Index a, Mesh::Index b) co
 /// Those of cells, where the surface is a boundary; those where cells meet, where it cuts through them.
 void MeshFigure::add_edges(const Surface& surface) {
     std::vector<std::int32_t> segments;
-    for_edges(surface, [&](std::span<const Edge> edge) {
-        const auto cell_of = [&](const Edge& e) { return surface.mesh_cells[static_cast<std::size_t>(e.second)]; };
+    surface::for_edges(surface, [&](std::span<const surface::Edge> edge) {
+        const auto cell_of = [&](const surface::Edge& e) {
+            return surface.mesh_cells[static_cast<std::size_t>(e.second)];
+        };
         const auto [a, b] = edge[0].first;
         std::set<Mesh::Index> nodes;
         for (const std::size_t p : {static_cast<std::size_t>(a), static_cast<std::size_t>(b)})
@@ -287,29 +279,10 @@ void MeshFigure::add_edges(const Surface& surface) {
               thin, dark_grey);
 }
 
-/// Where the boundary bends by 30 degrees or more; in the plane all of it.
 void MeshFigure::add_outline() {
     Surface whole = boundary(*mesh_, {.threads = threads_}).value();
     const Surface& surface = surfaces_.emplace_back(show_.plane ? behind(whole, *show_.plane) : std::move(whole));
-    if (mesh_->dimension == 2) return add_lines(surface.points, surface.cells, thick, dark_grey);
-    const auto normal = [&](std::int32_t t) {
-        std::array<Vector, 3> p{};
-        for (std::size_t c = 0; c < 3; ++c)
-            for (std::size_t k = 0; k < 3; ++k)
-                p[c][k] =
-                    surface
-                        .points[3 * static_cast<std::size_t>(surface.cells[3 * static_cast<std::size_t>(t) + c]) + k];
-        const Vector n = base::cross(base::minus(p[1], p[0]), base::minus(p[2], p[0]));
-        const double length = std::sqrt(base::dot(n, n));
-        return length > 0 ? Vector{n[0] / length, n[1] / length, n[2] / length} : n;
-    };
-    constexpr double bend = 0.866;  // cosine of 30 degrees
-    std::vector<std::int32_t> segments;
-    for_edges(surface, [&](std::span<const Edge> edge) {
-        if (edge.size() != 2 || base::dot(normal(edge[0].second), normal(edge[1].second)) <= bend)
-            segments.insert(segments.end(), {edge[0].first.first, edge[0].first.second});
-    });
-    add_lines(surface.points, std::move(segments), thick, dark_grey);
+    add_lines(surface.points, surface::outline_of(surface), thick, dark_grey);
 }
 
 /// Cells by their numbers in the file, whole.
@@ -335,6 +308,7 @@ void MeshFigure::add_marked() {
     for (Mesh::Index& node : surface.mesh_edges) node = part.nodes[static_cast<std::size_t>(node)];
     for (Mesh::Index& cell : surface.mesh_cells) cell = part.cells[static_cast<std::size_t>(cell)];
     figure_.surfaces.push_back({.points = surface.points, .triangles = surface.cells, .colour = marked_red});
+    drawn_.push_back({&surface, marked_red});
     if (show_.edges) add_edges(surface);
 }
 

@@ -3,6 +3,7 @@
 
 #include <deque>
 
+#include "barycert/draw/page.hpp"
 #include "barycert/jobs.hpp"
 
 namespace barycert::jobs {
@@ -26,6 +27,8 @@ public:
         all.options = options;
         return all;
     }
+    /// The same for a page; refused what pages have not.
+    draw::PageScene page(const FigureOptions& options) const;
 
 private:
     void choose_cells();
@@ -45,6 +48,7 @@ private:
     Notes& notes_;
     Mesh chosen_;
     std::deque<Surface> surfaces_;
+    std::vector<draw::PageSurface> drawn_;  ///< as those of the figure
     std::deque<std::vector<double>> numbers_;
     std::deque<std::vector<std::int32_t>> indices_;
     std::deque<Field> made_;

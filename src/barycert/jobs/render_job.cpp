@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "barycert/environment.hpp"
+#include "barycert/io/formats.hpp"
 #include "barycert/jobs/field_files.hpp"
 #include "barycert/jobs/job_files.hpp"
 #include "barycert/jobs/mesh_figure.hpp"
@@ -154,6 +156,10 @@ Scene small_picture(const RenderJob& job) {
     return scene;
 }
 
+bool is_page(const RenderJob& job) {
+    return io::has_suffix(job.output, ".html");
+}
+
 void draw_mesh(const RenderJob& job, RenderReport& report) {
     const jobs::ThreadLimit limit(job.threads);
     const Mesh mesh = jobs::open_mesh_with_fields(job, job.threads, report);
@@ -171,7 +177,12 @@ void draw_mesh(const RenderJob& job, RenderReport& report) {
         FigureOptions options = job.figure;
         if (options.bar_title.empty()) options.bar_title = job.field.empty() ? job.show.iso_field : job.field;
         FigureCounts counts;
-        write_figure(job.output, figure.figure(options), &counts).value();
+        if (is_page(job)) {
+            if (options.title.empty()) options.title = std::filesystem::path(job.mesh).filename().string();
+            draw::write_page(job.output, figure.page(options), counts).value();
+        } else {
+            write_figure(job.output, figure.figure(options), &counts).value();
+        }
         report.size = counts.size;
         report.counts = counts.render;
         if (!std::isnan(counts.low) || counts.without_value != 0)
@@ -230,8 +241,8 @@ std::vector<base::NamedFile> inputs_of(const RenderJob& job) {
 Result<RenderReport> render_files(const RenderJob& job) try {
     const ExactEnvironment environment;
     const bool mesh = job.picture == PictureKind::mesh;
-    if (mesh ? !is_figure_name(job.output) : !job.output.ends_with(".png"))
-        jobs::refuse_output(job.output, mesh ? ".png, .svg or .pdf" : ".png");
+    if (mesh ? !is_figure_name(job.output) && !is_page(job) : !job.output.ends_with(".png"))
+        jobs::refuse_output(job.output, mesh ? ".png, .svg, .pdf or .html" : ".png");
     jobs::check_outputs(job, inputs_of(job), {{"job.output", job.output}});
     jobs::Stopwatch time;
     RenderReport report;

@@ -33,13 +33,12 @@ bool unpack(Compressor compressor, std::string_view packed, char* to, std::size_
     return result == LZMA_OK && filled == size;
 }
 
-std::string pack(Compressor compressor, std::string_view plain) {
+std::string pack(Compressor compressor, std::string_view plain, int zlib_level) {
     std::string packed;
     std::size_t size = 0;
     if (compressor == Compressor::zlib) {
-        constexpr int level = 2;
         const std::unique_ptr<libdeflate_compressor, void (*)(libdeflate_compressor*)> own(
-            libdeflate_alloc_compressor(level), libdeflate_free_compressor);
+            libdeflate_alloc_compressor(zlib_level), libdeflate_free_compressor);
         if (own == nullptr) return {};
         packed.resize(libdeflate_zlib_compress_bound(own.get(), plain.size()));
         size = libdeflate_zlib_compress(own.get(), plain.data(), plain.size(), packed.data(), packed.size());

@@ -19,7 +19,7 @@ inline constexpr std::array<std::string_view, 4> compressor_names{"", "vtkZLibDa
 bool unpack(Compressor compressor, std::string_view packed, char* to, std::size_t size);
 
 /// The block compressed; empty where memory is short.
-std::string pack(Compressor compressor, std::string_view plain);
+std::string pack(Compressor compressor, std::string_view plain, int zlib_level = 2);
 
 /// No block of that size unpacks to more: a header that says so lies.
 std::uint64_t max_unpacked(Compressor compressor, std::uint64_t packed);

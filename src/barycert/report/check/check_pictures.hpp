@@ -27,7 +27,7 @@ std::vector<Exhibit> worst_cells(const CheckReport& report, const Mesh& mesh, st
 /// Cells with defects that can be drawn, each problem in turn, so that a few of one kind leave room for the others.
 std::vector<Exhibit> defect_cells(const CheckReport& report, const Mesh& mesh, std::size_t max);
 
-/// Where in the mesh they are: its boundary, thinned out to at most 3000 marks, and the exhibits by their numbers.
+/// Where in the mesh they are, and which by their numbers.
 std::string exhibit_map(const CheckReport& report, const Mesh& mesh, const std::vector<Exhibit>& exhibits);
 
 // Cells as points that can be drawn, and the directions to draw them from.
@@ -132,7 +132,7 @@ std::string histograms(const CheckReport& report);
 inline constexpr std::string_view check_style = R"(
 figure>img{max-width:100%;height:auto}
 .views{display:flex;flex-wrap:wrap;justify-content:space-around}
-.map{display:flex;flex-wrap:wrap;gap:12px 24px;align-items:center}.map svg{flex:2 1 420px;min-width:0}.map div{flex:1 1 240px}
+.map{display:flex;flex-wrap:wrap;gap:12px 24px;align-items:center}.map svg,.map figure{flex:2 1 420px;min-width:0}.map>div{flex:1 1 240px}
 .map table{font-size:14px;margin:0}
 .badge{display:inline-block;min-width:22px;padding:0 6px;border-radius:11px;background:#0072b2;color:#fff;
  text-align:center;font-size:13px;line-height:22px}.badge.problem{background:#c8102e}
@@ -146,11 +146,6 @@ svg .face{stroke:none;fill-opacity:.16}svg .face.a{fill:var(--bar)}svg .face.b{f
 svg .edge{stroke-width:1.5px}svg .edge.a{stroke:var(--bar)}svg .edge.b{stroke:var(--second)}
 svg .far{stroke-dasharray:4 4;stroke-width:1px}
 .node{fill:var(--ink)}.witness{fill:var(--bar-bad);stroke:var(--ground);stroke-width:1.2px}
-svg .hull,svg .crease{stroke:var(--soft);stroke-width:.7px;stroke-opacity:.6}svg .crease{stroke-width:.8px;stroke-opacity:.9}
-svg .dots{stroke-width:2.4px;stroke:var(--soft)}.dots.l0{stroke-opacity:.75}.dots.l1{stroke-opacity:.45}.dots.l2{stroke-opacity:.22}
-svg .problems{stroke:var(--bar-bad);stroke-width:4px;stroke-opacity:.6}
-svg .box{stroke:var(--soft);stroke-width:.8px;stroke-dasharray:2 4}
-.spot{fill:var(--bar);stroke:var(--ground);stroke-width:1px}.spot.problem{fill:var(--bar-bad)}
 @media print{.figures{grid-template-columns:1fr 1fr;gap:14px 20px}.card p,.map table{font-size:10.5px}}
 )";
 

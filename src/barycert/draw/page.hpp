@@ -1,0 +1,41 @@
+/// Meshes on pages, where people turn them, cut them by a plane, and ask them for cells, weights and values.
+#pragma once
+
+#include "barycert/figure.hpp"
+#include "barycert/surface.hpp"
+
+namespace barycert::draw {
+
+/// With more cells a page has those alone that a surface lies in: then a plane shows no section.
+inline constexpr std::size_t most_page_cells = 50000;
+
+struct PageSurface {
+    const Surface* surface = nullptr;  ///< of triangles, cut out of the mesh; of a mesh in the plane: its cells
+    std::optional<Rgba> colour = {};   ///< without it, the field's
+    bool clear = false;                ///< may be seen through
+};
+
+/// A text at a point, in three coordinates.
+struct PageLabel {
+    std::array<double, 3> at{};
+    std::string text = {};
+    bool bad = false;  ///< in red, else in blue
+};
+
+struct PageScene {
+    const Mesh* mesh = nullptr;  ///< its cells are numbered as cell_number says
+    std::vector<PageSurface> surfaces = {};
+    std::vector<const Field*> point_fields = {}, cell_fields = {};  ///< to choose from
+    std::string field = {};                                         ///< the one that is shown first
+    Figure figure = {};                                             ///< the same as a picture
+    std::vector<PageLabel> labels = {};
+    bool see_through = false;  ///< at first, what may be
+};
+
+/// A figure in HTML, well-formed XML: `still`, markup, which the viewer replaces where it runs. One a page.
+std::string turning_figure(const PageScene& scene, std::string_view still);
+
+/// A page of the scene alone. Error: as draw_figure, for the still picture; the file cannot be written.
+Status write_page(const std::string& path, const PageScene& scene, FigureCounts& counts);
+
+}  // namespace barycert::draw

@@ -1,0 +1,57 @@
+#include "barycert/surface/edges.hpp"
+
+#include <cmath>
+#include <numeric>
+
+#include "barycert/base/strict_math.hpp"
+#include "barycert/base/vectors.hpp"
+
+namespace barycert::surface {
+
+std::vector<std::int32_t> outline_of(const Surface& boundary) {
+    if (boundary.dimension == 2) return boundary.cells;
+    using Vector = std::array<double, 3>;
+    const auto normal = [&](std::int32_t triangle) {
+        std::array<Vector, 3> p{};
+        for (std::size_t c = 0; c < 3; ++c) {
+            const auto point = static_cast<std::size_t>(boundary.cells[3 * static_cast<std::size_t>(triangle) + c]);
+            std::copy_n(&boundary.points[3 * point], 3, p[c].begin());
+        }
+        const Vector n = base::cross(base::minus(p[1], p[0]), base::minus(p[2], p[0]));
+        const double length = std::sqrt(base::dot(n, n));
+        return length > 0 ? Vector{n[0] / length, n[1] / length, n[2] / length} : n;
+    };
+    constexpr double bend = 0.866;  // cosine of 30 degrees
+    std::vector<std::int32_t> segments;
+    for_edges(boundary, [&](std::span<const Edge> edge) {
+        if (edge.size() != 2 || base::dot(normal(edge[0].second), normal(edge[1].second)) <= bend)
+            segments.insert(segments.end(), {edge[0].first.first, edge[0].first.second});
+    });
+    return segments;
+}
+
+Surface facets_of(const Mesh& mesh, const std::vector<Mesh::Index>& cells) {
+    Surface out;
+    out.points = mesh.points;
+    const std::size_t corners = mesh.corners();
+    for (const Mesh::Index cell : cells) {
+        const Mesh::Index* const nodes = &mesh.cells[corners * static_cast<std::size_t>(cell)];
+        // The facet without a corner; of a triangle itself, without its fourth, which it has not.
+        for (std::size_t without = corners == 3 ? 3 : 0; without < 4; ++without) {
+            for (std::size_t i = 0; i < corners; ++i)
+                if (i != without) out.cells.push_back(nodes[i]);
+            out.mesh_cells.push_back(cell);
+        }
+    }
+    for (std::size_t i = 0; i < mesh.point_count(); ++i)
+        out.mesh_edges.insert(out.mesh_edges.end(), 2, static_cast<Mesh::Index>(i));
+    return out;
+}
+
+Surface facets_of(const Mesh& mesh) {
+    std::vector<Mesh::Index> all(mesh.cell_count());
+    std::iota(all.begin(), all.end(), 0);
+    return facets_of(mesh, all);
+}
+
+}  // namespace barycert::surface
