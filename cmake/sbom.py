@@ -260,8 +260,11 @@ def main():
         file.write("\n")
     if a.notices:
         os.makedirs(a.notices, exist_ok=True)
-        for name in compiled_in:
-            with open(f"/usr/share/doc/{name}/copyright", "rb") as notice:
+        root = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..")
+        paths = {name: f"/usr/share/doc/{name}/copyright" for name in compiled_in}
+        paths.update({name.replace(" ", "-"): os.path.join(root, notice) for name, _, _, notice in EMBEDDED})
+        for name, path in paths.items():
+            with open(path, "rb") as notice:
                 with open(f"{a.notices}/{name}.gz", "wb") as raw, gzip.GzipFile("", "wb", 9, raw, mtime=0) as file:
                     file.write(notice.read())
 

@@ -5,15 +5,8 @@
 /// doubles in any unit. Output: signs, weights, values, gradients, points. Errors are returned as Result or Status.
 /// Nothing prints or exits. Two things throw: a failed allocation (std::bad_alloc), and Result::value() on an Error.
 ///
-/// Laws, each a test of that name (tests/core, tests/laws):
-///   S1  A sign is exact for every finite double, subnormals and 1e308 included.          predicates.hpp
-///   S2  Even permutations keep a sign, odd ones flip it; powers of two keep it.          predicates.hpp
-///   W1  A weight has the exact sign; it is zero only if the exact one is, or rounds to it.   weights.hpp
-///   W2  A weight is the exact one rounded to nearest, ties to even.                          weights.hpp
-///   V1  A value is the exact sum of weight (quadratic field: of shape function) times nodal
-///       value, rounded once.                                              weights.hpp, perspective.hpp
-///   V2  A point that two cells share has the same value, to the bit, from both.      the same headers
-///   G1  A gradient's component is the exact one rounded to nearest, ties to even.         weights.hpp
+/// Laws, each a test of that name (tests/core, tests/laws). S1, S2: predicates.hpp. W1, W2, V1, V2, G1: weights.hpp; of
+/// what is drawn in perspective also perspective.hpp.
 ///   D1  Results depend on the input bits alone: not on threads, SIMD target, compiler,
 ///       optimisation, or the order of cases.
 ///   D2  Results do not depend on the caller's floating-point environment: rounding mode, flush-to-zero,

@@ -95,19 +95,16 @@ struct Figure {
 /// What became of the values of a grid.
 struct GridCounts {
     std::uint64_t drawn = 0;       ///< with a colour
-    std::uint64_t below = 0;       ///< of these: below the range, drawn as its low end
-    std::uint64_t above = 0;       ///< of these: above it, drawn as its high end
     std::uint64_t not_finite = 0;  ///< valid but NaN or infinite, or without a logarithm: the background
     std::uint64_t outside = 0;     ///< not valid: the background
-    double low = 0, high = 0;      ///< the range; NaN if nothing is drawn and none was given
 };
 
 struct FigureCounts {
     RasterSize size;  ///< of the whole picture: pixels of a .png, else 96ths of an inch
     RenderCounts render;
-    double low = 0, high = 0;            ///< the range; NaN if there are no values
+    double low = 0, high = 0;            ///< the range; NaN if there are no values and none was given
     std::uint64_t without_value = 0;     ///< triangles drawn in grey, for a value of theirs is not finite
-    std::uint64_t below = 0, above = 0;  ///< values at corners, or of triangles, beyond the range
+    std::uint64_t below = 0, above = 0;  ///< values beyond the range, drawn as its ends: at corners, ...
     GridCounts grid;
 };
 

@@ -156,7 +156,7 @@ struct SampleReport : MeshReport {
     std::vector<std::string> carried;  ///< columns that were carried through: labels of cells, columns of points
     std::string reason;                ///< why `method`: a clause
     std::optional<Grid> grid;          ///< of ResampleJob::counts and spacing
-    std::optional<GridCounts> picture;
+    std::optional<FigureCounts> picture;
     std::vector<FieldIntegral> integrals;  ///< of the cell fields that became values at nodes of another mesh
     OutsidePolicy outside;
     SampleCounts counts;  ///< locations: one a point

@@ -107,10 +107,6 @@ public:
     static Result<Locator> build(const Mesh& mesh, const BuildOptions& options = {});
     static Result<Locator> build(Mesh&&, const BuildOptions& = {}) = delete;
 
-    Locator(Locator&&) noexcept;
-    Locator& operator=(Locator&&) noexcept;
-    ~Locator();
-
     const Mesh& mesh() const;
     /// Candidates after Prove::never, else walk, also before the proof.
     Method method() const;
@@ -162,7 +158,7 @@ public:
 private:
     friend struct locate::LocatorData;
     explicit Locator(std::unique_ptr<locate::LocatorData> data);
-    std::unique_ptr<locate::LocatorData> data_;
+    std::unique_ptr<locate::LocatorData, void (*)(locate::LocatorData*)> data_;
 };
 
 /// Where cells are straight or linear though their maps are asked for. `file`: what the user calls the mesh.

@@ -4,8 +4,6 @@
 /// within 8 bytes of a file is always detected, any other is missed once in 2^64.
 #pragma once
 
-#include <memory>
-
 #include "barycert/locator.hpp"
 #include "barycert/surface.hpp"
 
@@ -36,10 +34,6 @@ public:
     /// A map to the nearest triangles of a surface: `cells` are triangles, features those in which nearest points lie.
     static Result<MapWriter> open(const std::string& path, const Surface& surface);
 
-    MapWriter(MapWriter&&) noexcept;
-    MapWriter& operator=(MapWriter&&) noexcept;
-    ~MapWriter();
-
     /// Appends the points, cells and features of the rows. Errors: sizes that do not fit together; a row that no map
     /// can hold (a coordinate that is not finite, a cell that is not in the mesh, a feature that it does not have);
     /// disk full and the like. After an error, and after commit(), nothing can be written, and each call tells so.
@@ -51,7 +45,7 @@ public:
 private:
     static Result<MapWriter> begin(const std::string& path, const sample::MapHeader& header);
     explicit MapWriter(std::unique_ptr<sample::MapWriterData> data);
-    std::unique_ptr<sample::MapWriterData> data_;
+    std::unique_ptr<sample::MapWriterData, void (*)(sample::MapWriterData*)> data_;
 };
 
 /// Reads rows block by block, each checked before it is given.
@@ -61,10 +55,6 @@ public:
     /// it was made for another mesh, or by a locator that takes its cells otherwise. `mesh` need not stay.
     static Result<MapReader> open(const std::string& path, const Mesh& mesh, const BuildOptions& located = {});
     static Result<MapReader> open(const std::string& path, const Surface& surface);
-
-    MapReader(MapReader&&) noexcept;
-    MapReader& operator=(MapReader&&) noexcept;
-    ~MapReader();
 
     int dimension() const;
     bool all() const;            ///< as MapWriter::open was told
@@ -78,7 +68,7 @@ public:
 private:
     static Result<MapReader> begin(const std::string& path, const sample::MapHeader& of, const char* cells);
     explicit MapReader(std::unique_ptr<sample::MapReaderData> data);
-    std::unique_ptr<sample::MapReaderData> data_;
+    std::unique_ptr<sample::MapReaderData, void (*)(sample::MapReaderData*)> data_;
 };
 
 }  // namespace barycert

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 
 #include "barycert/result.hpp"
 
@@ -114,6 +115,13 @@ struct Mesh {
         return cell_numbers.empty() || cell < 0 ? cell : cell_numbers[static_cast<std::size_t>(cell)];
     }
     std::size_t corners() const { return static_cast<std::size_t>(dimension) + 1; }
+    /// Where a node is, and the nodes of a cell. Precondition: is_listed().
+    const double* point(Index node) const {
+        return points.data() + static_cast<std::size_t>(dimension) * static_cast<std::size_t>(node);
+    }
+    std::span<const Index> corners_of(std::size_t cell) const {
+        return std::span(cells).subspan(cell * corners(), corners());
+    }
     bool is_listed() const { return axes[0].empty(); }
     std::size_t point_count() const {
         return is_listed() ? points.size() / static_cast<std::size_t>(dimension) : count_along_axes(0);

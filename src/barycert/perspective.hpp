@@ -10,11 +10,10 @@
 /// triangle before the projection. Geometry: the ray from the eye (0, 0, 0) through (x, y, 1) meets the plane of the
 /// points (x_i w_i, y_i w_i, w_i) in the point with weights beta_i and third coordinate Z.
 ///
-/// Laws (those of weights.hpp; tests in tests/core/perspective_test.cpp):
+/// Laws (those of weights.hpp, D1 and D2 as there; tests in tests/core/perspective_test.cpp):
 ///   W1, W2  A weight is the exact one rounded to nearest, ties to even; an exact zero is +0.
 ///   V1      A depth and a value are the exact ones, rounded once in the same way.
 ///   V2      On an edge the values have the same bits from both of its triangles, if its vertices have the same.
-///   D1, D2  Results depend on the input bits alone, and not on the floating-point environment.
 ///
 /// There are no weights, and they, depth and values are NaN and `degenerate`, if the triangle's area in the window is
 /// exactly zero, or if 1/Z is: then the ray is parallel to the plane, which happens outside the triangle only. Where

@@ -11,8 +11,7 @@
 ///       argument included), an odd one flips it; the same permutation of the vertices permutes the signs of the
 ///       weights. Multiplying all axes by one power of two (without leaving the doubles) changes no sign. Multiplying
 ///       one axis changes none in a triangle or tetrahedron, but may change incircle and insphere.
-///   D1  Answers, and the counts of TierCounts, depend on the input bits alone, not on threads, SIMD target, compiler
-///       or optimisation.
+///   D1  Answers, and the counts of TierCounts, depend on the input bits alone, as results do in weights.hpp.
 ///   E   A checked predicate returns an Error, never a sign, if a coordinate is NaN or infinite. An unchecked one
 ///       terminates and stays within its memory; which sign it returns is not specified. It is an assertion failure
 ///       where the library was built without NDEBUG.

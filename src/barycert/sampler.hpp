@@ -108,10 +108,6 @@ public:
     /// needs of point fields in the order in which it will be read. Returns an Error if a field does not fit the mesh.
     static Result<Sampler> build(const Locator& locator, const std::vector<FieldChoice>& fields);
 
-    Sampler(Sampler&&) noexcept;
-    Sampler& operator=(Sampler&&) noexcept;
-    ~Sampler();
-
     const Locator& locator() const;
 
     /// Of a row: those of the point fields first, then those of the cell fields, then lengths of point fields and
@@ -137,7 +133,7 @@ public:
 private:
     friend struct sample::SamplerData;
     explicit Sampler(std::unique_ptr<sample::SamplerData> data);
-    std::unique_ptr<sample::SamplerData> data_;
+    std::unique_ptr<sample::SamplerData, void (*)(sample::SamplerData*)> data_;
 };
 
 // The weights that points have on the nodes of a mesh: a sparse matrix that gives values from any field, anywhere.

@@ -68,10 +68,6 @@ public:
     static Result<SurfaceLocator> build(const Surface& surface, const BuildOptions& options = {});
     static Result<SurfaceLocator> build(Surface&&, const BuildOptions& = {}) = delete;
 
-    SurfaceLocator(SurfaceLocator&&) noexcept;
-    SurfaceLocator& operator=(SurfaceLocator&&) noexcept;
-    ~SurfaceLocator();
-
     const Surface& surface() const;
     Turned turned() const;
     std::size_t bytes() const;  ///< of memory besides the surface
@@ -102,7 +98,7 @@ public:
 
 private:
     explicit SurfaceLocator(std::unique_ptr<locate::SurfaceData> data);
-    std::unique_ptr<locate::SurfaceData> data_;
+    std::unique_ptr<locate::SurfaceData, void (*)(locate::SurfaceData*)> data_;
 };
 
 }  // namespace barycert

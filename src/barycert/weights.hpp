@@ -7,8 +7,9 @@
 ///       rounds to zero (at most half of the min subnormal), and then a zero with its sign. weight_signs tells the two
 ///       apart.
 ///   W2  Each weight is the exact one rounded to nearest, ties to even, subnormal results and infinity included.
-///   V1  Each value is the exact sum of weight times nodal value, rounded once in the same way, for every component. An
-///       exact zero is +0, even if all nodal values are -0; what underflows to zero keeps its sign.
+///   V1  Each value is the exact sum of weight (quadratic field: of shape function) times nodal value, rounded once in
+///       the same way, for every component. An exact zero is +0, even if all nodal values are -0; what underflows to
+///       zero keeps its sign.
 ///   V2  At a point on a shared face, edge or vertex the value has the same bits from every cell that holds it, if the
 ///       cells are not degenerate, whatever values the nodes beside it have.
 ///   G1  Each component of a gradient is the exact one, rounded once in the same way. An exact zero is +0,

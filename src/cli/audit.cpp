@@ -9,7 +9,6 @@ struct AuditArguments : Arguments<AuditJob> {
     std::vector<std::string> meshes, others;
     std::vector<Threshold> rules;
     bool mutants = false, surfaces = false, inverses = false, wide = false;
-    const CLI::App* app = nullptr;
 };
 
 void check_files(const AuditArguments& a) {
@@ -150,7 +149,6 @@ void add_audit(const Options& program) {
         "not caught; 2 usage or input error.",
         run_audit);
     AuditJob& job = a.job;
-    a.app = &o.app();
     o.text("MESH", a.meshes,
            "Meshes for the families mesh.*, in the formats of barycert sample; default: barycert's own")
         ->allow_extra_args(true);

@@ -13,6 +13,8 @@
 
 namespace barycert::cli {
 
+using base::names_of;
+
 /// A finite number; nothing if the text is something else. Likewise one above 0, and an integer of at least 1.
 inline std::optional<double> finite(std::string_view text) {
     const auto x = base::parse_double(text);
@@ -53,19 +55,6 @@ inline std::optional<std::pair<double, double>> ends_of(std::string_view text) {
     return std::pair((*ends)[0], (*ends)[1]);
 }
 
-/// Of each item its name, a member or name(item).
-template <class Items>
-std::vector<std::string> names_of(const Items& items) {
-    std::vector<std::string> names;
-    for (const auto& item : items) {
-        if constexpr (requires { item.name; })
-            names.push_back(item.name);
-        else
-            names.emplace_back(name(item));
-    }
-    return names;
-}
-
 inline constexpr const char* mesh_help =
     "A mesh: TetGen's or Triangle's .node/.ele, Gmsh's .msh, Medit's .mesh .meshb, VTK's .vtu .vtk .vtp .pvtu .vtm "
     ".pvd .vtu.series .vtp.series; others by way of meshio; any packed as .gz";
@@ -94,6 +83,7 @@ public:
                                            int (*work)(Arguments&)) const {
         const auto a = std::make_shared<Arguments>();
         CLI::App* const sub = app_->add_subcommand(std::string(name), about);
+        if constexpr (requires { a->app; }) a->app = sub;
         sub->footer(with_command_name(footer));
         sub->callback([a, work, sub, code = exit_code_] {
             if (sub->get_subcommands().empty()) *code = work(*a);

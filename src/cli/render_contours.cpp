@@ -8,11 +8,9 @@ namespace {
 
 struct ContourArguments : Arguments<ContourJob> {
     std::vector<double> ends, values;  ///< of --segment, end after end, and --values
-    const CLI::App* app = nullptr;
 };
 
 void add_contour_options(const Options& o, ContourArguments& a) {
-    a.app = &o.app();
     o.step(a.job.step);
     o.field_files(a.job.field_files, "--field-file");
     o.text("--fields", a.job.fields, "Fields to carry along: A,B,...; default: all", "NAMES");

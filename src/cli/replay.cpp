@@ -102,7 +102,6 @@ void add_replay(const Options& program) {
     o.text("--kernel-library", a.kernels.libraries, "Also show the kernel of this library");
     o.flag("--all", a.all, "Show the answers of all kernels, not only of the one in question");
     add_kernel_rules(o, a.kernels);
-    a.app = &o.app();
 }
 
 }  // namespace barycert::cli

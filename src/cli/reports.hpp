@@ -113,6 +113,7 @@ template <class Job>
 struct Arguments {
     Job job;
     Reports reports;
+    const CLI::App* app = nullptr;  ///< the command
 };
 
 /// True if text for people on stdout may be coloured: a terminal, and NO_COLOR is not set.

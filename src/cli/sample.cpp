@@ -61,11 +61,7 @@ int run_sampling(Arguments<Job>& a) {
     return a.reports.summarise(a.job, files, sample_json, sample_text);
 }
 
-struct ResampleArguments : Arguments<ResampleJob> {
-    const CLI::App* app = nullptr;
-};
-
-int run_resample(ResampleArguments& a) {
+int run_resample(Arguments<ResampleJob>& a) {
     const std::string of_picture = given_option(*a.app, figure_options);
     if (!of_picture.empty() && !is_figure_name(a.job.output))
         return fail({.what = of_picture + " needs a picture",
@@ -145,7 +141,6 @@ and cell), .msh (Gmsh's, the same without the mask), STEM or STEM.node (TetGen's
 Values are those of `barycert sample` at the same points, bit for bit. Exit codes: 0 done, 2 usage or input
 error.)",
         run_resample);
-    a.app = &o.app();
     ResampleJob& job = a.job;
     o.mesh(job.mesh);
     o.parsed("--grid", "NXxNYxNZ", "Number of points along each axis, ends included; a single point lies in the middle",

@@ -23,6 +23,7 @@ void bind_points(py::module_& module);
 void bind_check(py::module_& module);
 void bind_simplex(py::module_& module);
 void bind_surface(py::module_& module);
+void bind_figure(py::module_& module);
 void bind_audit(py::module_& module);
 
 /// Arguments that are words in Python; any other word is an Error. Entries without a word do not count.

@@ -64,6 +64,7 @@ PYBIND11_MODULE(_core, module) {
     bind_check(module);
     bind_simplex(module);
     bind_surface(module);
+    bind_figure(module);
     module.attr("has_audit") = false;
 #ifdef BARYCERT_WITH_AUDIT
     bind_audit(module);

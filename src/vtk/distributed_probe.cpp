@@ -206,11 +206,8 @@ private:
             if (!index_->exact()) return not_exact(index_->reason);
             report_.notes = index_->notes;
             if (exchange_.size() > 1 && shape_.by_numbers && index_->locator) numbers_ = global_ids(*source_, *index_);
-            vtkDataArray* const scalars = source_->GetPointData()->GetScalars();
-            if (settings_.categorical && index_->locator &&
-                (scalars == nullptr || scalars->GetNumberOfComponents() != 1))
-                return Error{.what = "CategoricalData takes point scalars of one component, of the source"};
-            if (std::string fault = fault_of_arrays(*source_); !fault.empty()) return Error{.what = fault};
+            const bool categorical = settings_.categorical && index_->locator;
+            if (std::string fault = fault_of_arrays(*source_, categorical); !fault.empty()) return Error{.what = fault};
             arrays_.emplace(*index_, *source_, *scratch_, settings_.categorical, settings_.mask.c_str());
             report_.inexact = arrays_->inexact();
             kinds_ = kinds_of(*scratch_->GetPointData(), settings_.mask.c_str());

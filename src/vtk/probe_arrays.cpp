@@ -162,7 +162,10 @@ Status sample_points(const ExactIndex& index, vtkDataSet& input, double toleranc
 
 }  // namespace
 
-std::string fault_of_arrays(vtkDataSet& source) {
+std::string fault_of_arrays(vtkDataSet& source, bool categorical) {
+    vtkDataArray* const scalars = source.GetPointData()->GetScalars();
+    if (categorical && (scalars == nullptr || scalars->GetNumberOfComponents() != 1))
+        return "CategoricalData takes point scalars of one component, of the source";
     const auto look = [](vtkDataSetAttributes& attributes, vtkIdType count, const char* what) {
         for (int i = 0; i < attributes.GetNumberOfArrays(); ++i) {
             vtkAbstractArray& array = *attributes.GetAbstractArray(i);

@@ -14,8 +14,9 @@ namespace barycert::in_vtk {
 /// Where rows lie: sets the coordinates, on the axes of the mesh, of a row.
 using PlaceOfRow = std::function<void(std::size_t row, double* point)>;
 
-/// Which array of the points or cells of `source` has not one tuple for each; empty if all have.
-std::string fault_of_arrays(vtkDataSet& source);
+/// Which array of the points or cells of `source` has not one tuple for each; `categorical`: or that its point scalars
+/// have not one component. Empty if all is well.
+std::string fault_of_arrays(vtkDataSet& source, bool categorical);
 
 /// The array of that name or, where that is null, in that role; null if there is none.
 vtkAbstractArray* array_in(vtkDataSetAttributes& attributes, const char* name, int role);

@@ -67,7 +67,7 @@ int vtkBarycertProbe::RequestInformation(vtkInformation* request, vtkInformation
     vtkInformation* const source = inputs[1]->GetInformationObject(0);
     vtkInformation* const out = outputs->GetInformationObject(0);
     for (vtkInformationDoubleVectorKey* const key : {Pipeline::TIME_STEPS(), Pipeline::TIME_RANGE()})
-        if (source->Has(key) != 0) out->CopyEntry(source, key);
+        if (source != nullptr && source->Has(key) != 0) out->CopyEntry(source, key);
     return Superclass::RequestInformation(request, inputs, outputs);
 }
 
@@ -100,11 +100,6 @@ int vtkBarycertProbe::RequestData(vtkInformation*, vtkInformationVector** inputs
         return 0;
     }
     output->CopyStructure(input);
-    vtkDataArray* const scalars = source->GetPointData()->GetScalars();
-    if (CategoricalData != 0 && (scalars == nullptr || scalars->GetNumberOfComponents() != 1)) {
-        vtkErrorMacro("CategoricalData takes point scalars of one component, of the source");
-        return 0;
-    }
     if (!Sample(input, source, output)) return 0;
     PassArrays(input, output);
     return 1;
@@ -120,7 +115,7 @@ bool vtkBarycertProbe::Sample(vtkDataSet* input, vtkDataSet* source, vtkDataSet*
         vtkErrorMacro("this source cannot be probed exactly: " << index.reason);
         return false;
     }
-    if (const std::string fault = in_vtk::fault_of_arrays(*source); !fault.empty()) {
+    if (const std::string fault = in_vtk::fault_of_arrays(*source, CategoricalData != 0); !fault.empty()) {
         vtkErrorMacro(<< fault);
         return false;
     }

@@ -1,6 +1,5 @@
 #include "vtkPBarycertProbe.h"
 
-#include <algorithm>
 #include <map>
 
 #include <vtkAlgorithmOutput.h>
@@ -182,12 +181,6 @@ int vtkPBarycertProbe::RequestDataObject(vtkInformation* request, vtkInformation
         return Superclass::RequestDataObject(request, inputs, outputs);
     outputs->GetInformationObject(0)->Set(vtkDataObject::DATA_OBJECT(), vtkNew<vtkPolyData>());
     return 1;
-}
-
-int vtkPBarycertProbe::RequestInformation(vtkInformation* request, vtkInformationVector** inputs,
-                                          vtkInformationVector* outputs) {
-    if (inputs[1]->GetNumberOfInformationObjects() == 0) return 1;
-    return Superclass::RequestInformation(request, inputs, outputs);
 }
 
 // The piece of the source goes with the piece of the output, as that of the input does. Ghosts are not needed.

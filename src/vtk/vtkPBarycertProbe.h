@@ -59,8 +59,6 @@ protected:
     int FillInputPortInformation(int port, vtkInformation* info) override;
     int RequestDataObject(vtkInformation* request, vtkInformationVector** inputs,
                           vtkInformationVector* outputs) override;
-    int RequestInformation(vtkInformation* request, vtkInformationVector** inputs,
-                           vtkInformationVector* outputs) override;
     int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputs,
                             vtkInformationVector* outputs) override;
     int RequestData(vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;

@@ -74,15 +74,15 @@ Figure bare(const FigureGrid& grid, const Range& range = {}) {
     return f;
 }
 
-Status write(const std::string& path, const FigureGrid& grid, const Range& range = {}, GridCounts* counts = nullptr) {
+Status write(const std::string& path, const FigureGrid& grid, const Range& range = {}, FigureCounts* counts = nullptr) {
     FigureCounts all;
     const Status written = write_figure(path, bare(grid, range), &all);
-    if (written && counts != nullptr) *counts = all.grid;
+    if (written && counts != nullptr) *counts = all;
     return written;
 }
 
 /// Written and read.
-Read drawn(const FigureGrid& grid, GridCounts* counts = nullptr, const Range& range = {}) {
+Read drawn(const FigureGrid& grid, FigureCounts* counts = nullptr, const Range& range = {}) {
     const TemporaryFolder folder;
     const Status written = write(folder / "grid.png", grid, range, counts);
     EXPECT_TRUE(written) << written.error().message();
@@ -92,7 +92,7 @@ Read drawn(const FigureGrid& grid, GridCounts* counts = nullptr, const Range& ra
 TEST(GridPicture, EveryPixelIsTheColourOfItsValue) {
     // 3 by 2, the first line at the bottom.
     const std::vector<double> values{0, 1, 2, 255, 254.5, 256};
-    GridCounts counts;
+    FigureCounts counts;
     const Read p = drawn({.width = 3, .height = 2, .values = values}, &counts);
     ASSERT_EQ(p.width, 3U);
     ASSERT_EQ(p.height, 2U);
@@ -102,36 +102,36 @@ TEST(GridPicture, EveryPixelIsTheColourOfItsValue) {
     EXPECT_EQ(p.at(0, 0), colour_of(255));
     EXPECT_EQ(p.at(1, 0), colour_of(254));
     EXPECT_EQ(p.at(2, 0), colour_of(255));
-    EXPECT_EQ(counts.drawn, 6U);
+    EXPECT_EQ(counts.grid.drawn, 6U);
     EXPECT_EQ(counts.low, 0);
     EXPECT_EQ(counts.high, 256);
-    EXPECT_EQ(counts.below + counts.above + counts.not_finite + counts.outside, 0U);
+    EXPECT_EQ(counts.below + counts.above + counts.grid.not_finite + counts.grid.outside, 0U);
 }
 
 TEST(GridPicture, ARangeThatIsGiven) {
     const std::vector<double> values{-1, 0, std::nextafter(1.0, 0), 1, 1.5, nan};
-    GridCounts counts;
+    FigureCounts counts;
     const Read p = drawn({.width = 6, .height = 1, .values = values}, &counts, {{0.0, 1.0}});
     const std::vector<std::array<int, 4>> expected{colour_of(0),   colour_of(0),   colour_of(255),
                                                    colour_of(255), colour_of(255), transparent};
     for (std::size_t x = 0; x < 6; ++x) EXPECT_EQ(p.at(x, 0), expected[x]) << x;
-    EXPECT_EQ(counts.drawn, 5U);
+    EXPECT_EQ(counts.grid.drawn, 5U);
     EXPECT_EQ(counts.below, 1U);
     EXPECT_EQ(counts.above, 1U);
-    EXPECT_EQ(counts.not_finite, 1U);
+    EXPECT_EQ(counts.grid.not_finite, 1U);
 }
 
 TEST(GridPicture, OutsideAndNotFiniteAreTransparent) {
     const std::vector<double> values{1e300, 3, inf, -inf, nan, 4, 5};
     const std::vector<std::uint8_t> valid{0, 1, 1, 1, 1, 1, 1};
-    GridCounts counts;
+    FigureCounts counts;
     const Read p = drawn({.width = 7, .height = 1, .values = values, .valid = valid}, &counts);
     const std::vector<std::array<int, 4>> expected{transparent, colour_of(0),   transparent,   transparent,
                                                    transparent, colour_of(128), colour_of(255)};
     for (std::size_t x = 0; x < 7; ++x) EXPECT_EQ(p.at(x, 0), expected[x]) << x;
-    EXPECT_EQ(counts.drawn, 3U);
-    EXPECT_EQ(counts.not_finite, 3U);
-    EXPECT_EQ(counts.outside, 1U);
+    EXPECT_EQ(counts.grid.drawn, 3U);
+    EXPECT_EQ(counts.grid.not_finite, 3U);
+    EXPECT_EQ(counts.grid.outside, 1U);
     EXPECT_EQ(counts.low, 3);
     EXPECT_EQ(counts.high, 5);
 }
@@ -168,13 +168,13 @@ TEST(GridPicture, AnyMagnitude) {
 TEST(GridPicture, AllNan) {
     const TemporaryFolder folder;
     const std::vector<double> values(35, nan);
-    GridCounts counts;
+    FigureCounts counts;
     ASSERT_TRUE(write(folder / "nan.png", {.width = 7, .height = 5, .values = values}, {}, &counts));
     const Read p = picture(folder / "nan.png");
     EXPECT_EQ(p.width, 7U);
     EXPECT_EQ(p.height, 5U);
     EXPECT_TRUE(std::all_of(p.bytes.begin(), p.bytes.end(), [](std::uint8_t b) { return b == 0; }));
-    EXPECT_EQ(counts.drawn, 0U);
+    EXPECT_EQ(counts.grid.drawn, 0U);
     EXPECT_TRUE(std::isnan(counts.low) && std::isnan(counts.high));
 }
 
@@ -227,12 +227,12 @@ TEST(GridPicture, Errors) {
     const std::vector<std::uint8_t> valid(5);
     testing::put(folder / "s.png", "old");
     const auto refused = [&](const FigureGrid& grid, const Range& range = {}) {
-        GridCounts counts;
-        counts.drawn = 77;
+        FigureCounts counts;
+        counts.grid.drawn = 77;
         const Status status = write(folder / "s.png", grid, range, &counts);
         if (status) return std::string("written");
         EXPECT_EQ(status.error().file, folder / "s.png");
-        EXPECT_EQ(counts.drawn, 77U);
+        EXPECT_EQ(counts.grid.drawn, 77U);
         return status.error().what;
     };
     const std::string size = "a grid of that size cannot be a picture";

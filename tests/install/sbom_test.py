@@ -77,7 +77,8 @@ if any(name.startswith("libcgal") for name in of):
     assert not any(re.search(r"(^|\W)GPL", l) for n, l in of.items() if n.startswith("libcgal"))
 else:
     assert of["barycert"] == "Apache-2.0"
-assert os.path.exists(os.path.join(work, "notices", "libeigen3-dev.gz"))
+for name in ("libeigen3-dev", "three.js", "DejaVu-Sans"):
+    assert os.path.exists(os.path.join(work, "notices", name + ".gz")), name
 assert of["three.js"] == "MIT" and of["DejaVu Sans"] == "Bitstream-Vera"
 if os.path.exists(os.path.join(build, "bin/barycert-tetgen")):
     mesher = bill("barycert-tetgen", "bin/barycert-tetgen")

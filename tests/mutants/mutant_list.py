@@ -207,8 +207,8 @@ EXPLICIT = [
     ("gradient.cpp", "v[k == 0 ? 1 : 0]", 0, "v[k == 0 ? 0 : 1]", "the face seen along another axis"),
     ("weights.cpp", "found.finite_values = found.finite_values && usable;", 0, "found.finite_values = usable;", "the last component alone counts"),
     ("weights.cpp", "values_.at[i] + components_ * first", 0, "values_.at[i] + first", "components of later blocks"),
-    ("input_checks.hpp", "base::first_not_finite({point, d})", 0, "0", "which coordinate of the point"),
-    ("input_checks.hpp", "(point == nullptr || all_finite(point, space_dimension(s)))", 0, "true",
+    ("blocks.hpp", "base::first_not_finite({point, d})", 1, "0", "which coordinate of the point"),
+    ("blocks.hpp", "(point == nullptr || base::first_not_finite({point, d}) == d)", 0, "true",
      "points that are not finite"),
     ("lane_loop-inl.hpp", "run(hn::CappedTag<double, 1>());", 0, "", "the rest of a batch"),
     ("lane_loop-inl.hpp", "numbers[count] = static_cast<std::uint32_t>(at + i);", 0, "numbers[count] = static_cast<std::uint32_t>(i);", "numbers within the vector"),
@@ -224,7 +224,7 @@ EXPLICIT = [
 COMPARISONS = [(" > ", " >= "), (" < ", " <= "), (" >= ", " > "), (" <= ", " < "), (" == ", " != "), (" != ", " == "),
                ("hn::Gt(", "hn::Ge("), ("hn::Ge(", "hn::Gt("), ("hn::Le(", "hn::Lt("), ("hn::Eq(", "hn::Ne(")]
 SIGNS = [(" + ", " - "), (" - ", " + ")]
-COMPARED = [F, R, Q, X, S, I, "predicates.cpp", "weight_signs.cpp", "weights.cpp", "blocks.hpp", "input_checks.hpp", "inverse.cpp",
+COMPARED = [F, R, Q, X, S, I, "predicates.cpp", "weight_signs.cpp", "weights.cpp", "blocks.hpp", "inverse.cpp",
             "lane_loop-inl.hpp", "lanes.cpp"]
 SUMMED = ["numerators-inl.hpp", E, R, F]
 

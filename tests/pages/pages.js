@@ -27,11 +27,11 @@ function check(ok, what) {
   }
 }
 
-/// Runs the program; the page that --html names.
-function made(name, args, { code = 0, input = "" } = {}) {
+/// Runs the program; the page that --html names, or `option`.
+function made(name, args, { code = 0, input = "", option = "--html" } = {}) {
   let ended = 0;
   try {
-    execFileSync(program, [...args, "--quiet", "--html", name], { cwd: folder, input, stdio: ["pipe", "pipe", "inherit"] });
+    execFileSync(program, [...args, "--quiet", option, name], { cwd: folder, input, stdio: ["pipe", "pipe", "inherit"] });
   } catch (error) {
     ended = error.status;
   }
@@ -62,6 +62,8 @@ function makePages() {
     check: made("check.html", ["check", mesh("flange")]),
     broken: made("broken.html", ["check", nasty], { code: 1 }),
     plane: made("plane.html", ["check", mesh("plate")]),
+    scene: made("scene.html", ["render", "mesh", mesh("cube-hole"), "--field", "attribute0", "--edges", "--view", "+x"],
+      { option: "--output" }),
     verify: made("verify.html", ["verify", mesh("cube-hole"), "--results", nasty + ".csv"], { code: 1 }),
   };
 }
@@ -168,11 +170,73 @@ function cutOff() {
   return out;
 }
 
+/// The numbers of a file of TetGen, but for its first line: a row each.
+function rowsOf(file) {
+  const lines = fs.readFileSync(file, "utf8").split("\n").map((line) => line.replace(/#.*/, "").trim()).filter(Boolean);
+  return lines.slice(1).map((line) => line.split(/\s+/).map(Number));
+}
+
+/// A mesh that turns: what it says where it is clicked, on screens of both kinds, by mouse and by finger.
+async function turning(opened, mesh) {
+  const nodes = rowsOf(mesh + ".node"), cells = rowsOf(mesh + ".ele");
+  // Cells with a facet on the side that the camera sees, by the files alone.
+  const seen = cells.map((row) => row.slice(1, 5)).flatMap((corners, cell) => {
+    const facet = corners.filter((v) => nodes[v][1] === 1);
+    return facet.length === 3 ? [{ cell, middle: [1, 2, 3].map((k) => facet.reduce((sum, v) => sum + nodes[v][k] / 3, 0)) }] : [];
+  });
+  check(seen.length > 20, `${seen.length} cells are seen`);
+  const some = Array.from({ length: 300 }, (_, i) => [i * 0.618034, i * 0.7548777, i * 0.5698403].map((x) => x % 1).join(","));
+  const table = execFileSync(program, ["sample", mesh, "--points", "-", "--fields", "attribute0", "--output", "-"],
+    { input: ["x,y,z", ...some].join("\n"), encoding: "utf8", stdio: ["pipe", "pipe", "ignore"] });
+  const [heads, ...rows] = table.trim().split("\n").map((line) => line.split(","));
+  const column = (row, name) => Number(row[heads.indexOf(name)]);
+  for (const options of [{ viewport: { width: 1280, height: 900 } }, { viewport: { width: 390, height: 844 }, hasTouch: true }]) {
+    await opened("scene", options, async (page, where) => {
+      await page.waitForFunction(() => document.querySelector(".turning").viewer);
+      const said = () => page.locator(".said").textContent();
+      for (const { cell, middle } of seen) {
+        const [x, y] = await page.evaluate((p) => document.querySelector(".turning").viewer.pixelOf(p), middle);
+        await (options.hasTouch ? page.touchscreen.tap(x, y) : page.mouse.click(x, y));
+        const words = await said();
+        check(words.startsWith(`cell ${cell} at (1, `), `${where}: cell ${cell} at ${x}, ${y} is said to be ${words}`);
+      }
+      await page.mouse.click((await page.locator(".turning canvas").boundingBox()).x + 2, 300);
+      check((await said()) === "There is nothing.", `${where}: beside the mesh: ${await said()}`);
+      // Values are those of the program, to the bit.
+      for (const row of rows) {
+        const cell = column(row, "cell"), point = ["x", "y", "z"].map((name) => column(row, name));
+        if (cell < 0) continue;
+        const { value, weights } = await page.evaluate(([c, p]) => document.querySelector(".turning").viewer.answerAt(c, p), [cell, point]);
+        check(value === column(row, "attribute0"), `${where}: at ${point} ${value}, not ${row}`);
+        check(weights.every((w) => w >= 0) && Math.abs(weights.reduce((a, b) => a + b, 0) - 1) < 1e-15, `${where}: weights ${weights}`);
+      }
+      // Turned and reset it is as before; cut, a section is seen; without colours another picture.
+      const picture = () => page.locator(".turning canvas").screenshot();
+      const first = await picture(), box = await page.locator(".turning canvas").boundingBox();
+      await page.mouse.move(box.x + 100, box.y + 100);
+      await page.mouse.down();
+      await page.mouse.move(box.x + 180, box.y + 140, { steps: 4 });
+      await page.mouse.up();
+      check(!first.equals(await picture()), `${where}: does not turn`);
+      await page.getByRole("button", { name: "Reset" }).click();
+      check(first.equals(await picture()), `${where}: reset does not bring it back`);
+      await page.getByLabel("Cut").selectOption("x");
+      check(!first.equals(await picture()), `${where}: is not cut`);
+      await page.mouse.click(box.x + box.width / 2, box.y + box.height * 0.2);
+      check(/^cell \d+ at \(0\.5/.test(await said()), `${where}: in the section: ${await said()}`);
+      await page.getByLabel("Cut").selectOption("none");
+      await page.getByLabel("Field").selectOption("none");
+      check(!first.equals(await picture()), `${where}: keeps its colours`);
+    });
+  }
+}
+
 async function main() {
   fs.rmSync(folder, { recursive: true, force: true });
   fs.mkdirSync(folder, { recursive: true });
   const pages = makePages();
-  const browser = await playwright.chromium.launch({ executablePath: chromium, args: ["--no-sandbox"] });
+  const browser = await playwright.chromium.launch({
+    executablePath: chromium, args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"] });
 
   async function opened(name, options, look) {
     const context = await browser.newContext(options);
@@ -212,7 +276,13 @@ async function main() {
     const words = {};
     for (const javaScriptEnabled of [true, false]) {
       await opened(name, { javaScriptEnabled }, async (page) => {
-        words[javaScriptEnabled] = (await page.locator("main").textContent()).replace(/Copy/g, "").replace(/\s+/g, " ");
+        // But for the mesh that turns, which stands still there.
+        const said = await page.locator("main").evaluate((main) => {
+          const all = main.cloneNode(true);
+          for (const figure of all.querySelectorAll(".turning, script, style")) figure.remove();
+          return all.textContent;
+        });
+        words[javaScriptEnabled] = said.replace(/Copy/g, "").replace(/\s+/g, " ");
       });
     }
     check(words[true] === words[false], `${name}: without JavaScript the words are others`);
@@ -290,6 +360,7 @@ async function main() {
     for (const kind of pictures) check(new Set(kind).size === kind.length, "the same picture twice");
     check((await page.locator(".signs figure:first-child.exact").count()) === pictures.length, "no exact picture first");
   });
+  await turning(opened, path.join(data, "meshes", "cube-hole"));
   // On paper nothing is left out that the screen has, nothing is cut off, and the ground is white.
   for (const name of Object.keys(pages)) {
     await opened(name, { viewport: { width: paperWidth, height: 1000 }, colorScheme: "dark" }, async (page, where) => {

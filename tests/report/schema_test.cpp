@@ -66,7 +66,7 @@ void sample_reports(Schema& schema) {
     run.notes = {{Note::Kind::guessed, "the order", "a file"}};
     run.not_finite = {{"t", true, 3, 50}};
     for (const double low : {0.25, std::numeric_limits<double>::quiet_NaN()}) {
-        run.picture = GridCounts{.drawn = 3, .below = 1, .above = 2, .low = low, .high = low};
+        run.picture = FigureCounts{.size = {}, .render = {}, .low = low, .high = low, .below = 1, .above = 2, .grid = {.drawn = 3}};
         schema.check("Sample", Json::parse(sample_json(run, measure_environment())), "sample");
         run.from = PointsFrom::mesh;
         run.simplices = 6;

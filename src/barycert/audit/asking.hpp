@@ -3,11 +3,13 @@
 #pragma once
 
 #include "barycert/audit.hpp"
+#include "barycert/base/text.hpp"
 #include "barycert/base/workers.hpp"
 #include "barycert/kernels/host.hpp"
 
 namespace barycert::audit {
 
+using base::names_of;
 using kernels::Asked;
 using kernels::Statement;
 
@@ -18,14 +20,6 @@ constexpr bool is_inside(Region r) {
 /// Float32 and the like: names with a second dot.
 inline bool is_variant(const Kernel& kernel) {
     return std::ranges::count(kernel.name, '.') > 1;
-}
-
-template <class Item>
-std::vector<std::string> names_of(const std::vector<Item>& items) {
-    std::vector<std::string> names;
-    names.reserve(items.size());
-    for (const Item& item : items) names.push_back(item.name);
-    return names;
 }
 
 /// Asks for cases of the kernel's simplex, at most 256 of them, and sets as many statements. Runs in the exact

@@ -6,7 +6,6 @@
 #include "barycert/audit_search.hpp"
 #include "barycert/base/finite.hpp"
 #include "barycert/base/nearest_name.hpp"
-#include "barycert/base/text.hpp"
 
 namespace barycert {
 

@@ -2,8 +2,6 @@
 /// vertices, in plain rounded arithmetic.
 #pragma once
 
-#include <limits>
-
 #include "barycert/audit.hpp"
 #include "barycert/base/random.hpp"
 #include "barycert/base/ulp.hpp"

@@ -2,7 +2,6 @@
 // the oracle; inverse maps against barycert's own, which are proved case by case.
 
 #include <cmath>
-#include <mutex>
 
 #include "barycert/audit/asking.hpp"
 #include "barycert/audit/inverses/reference.hpp"

@@ -1,7 +1,6 @@
 #include "barycert/audit/asking.hpp"
 #include "barycert/base/finite.hpp"
 #include "barycert/base/nearest_name.hpp"
-#include "barycert/base/text.hpp"
 
 namespace barycert {
 

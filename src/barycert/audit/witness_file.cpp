@@ -2,7 +2,6 @@
 #include "barycert/audit/search/evaluation.hpp"
 #include "barycert/audit_search.hpp"
 #include "barycert/base/json_text.hpp"
-#include "barycert/base/text.hpp"
 
 namespace barycert {
 

@@ -32,10 +32,10 @@ struct Descriptor {
     /// Writes all bytes at the end, or those from `offset` on. False if that fails, in errno.
     bool write(std::string_view bytes, std::optional<std::size_t> offset = {}) const {
         while (!bytes.empty()) {
-            const ssize_t written = offset ? ::pwrite(number, bytes.data(), bytes.size(), static_cast<off_t>(*offset))
-                                           : ::write(number, bytes.data(), bytes.size());
-            if (written < 0 && errno != EINTR) return false;
-            if (written < 0) continue;
+            const ssize_t written =
+                TEMP_FAILURE_RETRY(offset ? ::pwrite(number, bytes.data(), bytes.size(), static_cast<off_t>(*offset))
+                                          : ::write(number, bytes.data(), bytes.size()));
+            if (written < 0) return false;
             bytes.remove_prefix(static_cast<std::size_t>(written));
             if (offset) *offset += static_cast<std::size_t>(written);
         }

@@ -105,9 +105,8 @@ Status unchanged(int descriptor, const FileState& then, const std::string& path)
 Result<std::size_t> read_at(int descriptor, std::uint64_t offset, std::span<char> bytes, const std::string& path) {
     std::size_t done = 0;
     while (done < bytes.size()) {
-        const ssize_t got =
-            ::pread(descriptor, bytes.data() + done, bytes.size() - done, static_cast<off_t>(offset + done));
-        if (got < 0 && errno == EINTR) continue;
+        const ssize_t got = TEMP_FAILURE_RETRY(
+            ::pread(descriptor, bytes.data() + done, bytes.size() - done, static_cast<off_t>(offset + done)));
         if (got < 0) return read_failure(path, errno);
         if (got == 0) break;
         done += static_cast<std::size_t>(got);
@@ -167,8 +166,7 @@ Result<std::string> read_file(const std::string& path, std::size_t longest, Text
     std::size_t have = 0;
     while (true) {
         if (have == bytes.size()) bytes.resize(have + std::max<std::size_t>(have / 2, std::size_t{1} << 16));
-        const ssize_t got = ::read(file->descriptor(), bytes.data() + have, bytes.size() - have);
-        if (got < 0 && errno == EINTR) continue;
+        const ssize_t got = TEMP_FAILURE_RETRY(::read(file->descriptor(), bytes.data() + have, bytes.size() - have));
         if (got < 0) return read_failure(path, errno);
         if (got == 0) break;
         have += static_cast<std::size_t>(got);

@@ -6,6 +6,7 @@
 /// Source: S. Vigna, G. Steele, D. Lea, "Fast splittable pseudorandom number generators", OOPSLA 2014 (SplitMix64).
 #pragma once
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -26,6 +27,17 @@ constexpr std::uint64_t hash64(std::string_view text) {
     for (const char c : text) h = (h ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
     return mix64(h);
 }
+
+/// A place as the key of a table: the bits of up to three coordinates. Zeros of either sign are one place.
+using PointBits = std::array<std::uint64_t, 3>;
+inline PointBits bits_of_point(const double* point, std::size_t dimension = 3) {
+    PointBits bits{};
+    for (std::size_t k = 0; k < dimension; ++k) bits[k] = std::bit_cast<std::uint64_t>(point[k] + 0.0);
+    return bits;
+}
+struct HashOfBits {
+    std::size_t operator()(const PointBits& x) const { return mix64(mix64(mix64(x[0]) ^ x[1]) ^ x[2]); }
+};
 
 class Random {
 public:

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 namespace barycert::base {
 
@@ -92,6 +93,19 @@ inline Character first_character(std::string_view text) {
 
 /// `text` as one word for a POSIX shell, to be copied, quoted where needed; printable, whatever it holds.
 std::string shell_word(std::string_view text);
+
+/// Of each item its name, a member or name(item).
+template <class Items>
+std::vector<std::string> names_of(const Items& items) {
+    std::vector<std::string> names;
+    for (const auto& item : items) {
+        if constexpr (requires { item.name; })
+            names.push_back(item.name);
+        else
+            names.emplace_back(name(item));
+    }
+    return names;
+}
 
 /// A rule that bounds something: NAME, or NAME>NUMBER.
 struct NamedLimit {

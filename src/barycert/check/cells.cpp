@@ -168,7 +168,7 @@ struct CellChecker {
     CellMeasures& m = c.report.measures;
 
     bool usable(std::size_t cell, CellPart& part) const {
-        const std::span nodes = nodes_of(c.mesh, cell);
+        const std::span nodes = c.mesh.corners_of(cell);
         bool is_finite = true, repeated = false;
         for (std::size_t i = 0; i < nodes.size(); ++i) {
             if (nodes[i] < 0 || static_cast<std::size_t>(nodes[i]) >= c.finite.size()) {

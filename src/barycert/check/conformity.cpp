@@ -136,7 +136,7 @@ private:
         std::array<const double*, 3> nodes{};
         for (std::size_t i = 0, n = 0; i < 4; ++i) {
             if (static_cast<std::int32_t>(i) != f.corner)
-                nodes[n++] = node_at(c_.mesh, c_.mesh.cells[static_cast<std::size_t>(f.cell) * 4 + i]);
+                nodes[n++] = c_.mesh.point(c_.mesh.cells[static_cast<std::size_t>(f.cell) * 4 + i]);
         }
         return nodes;
     }

@@ -104,7 +104,7 @@ private:
         std::ranges::sort(pairs, {}, nodes_of_pair);
         constexpr double of_one_cell = -1;
         for (std::size_t cell = 0; !pairs.empty() && cell < usable.size(); ++cell) {
-            const std::span nodes = nodes_of(mesh_, cell);
+            const std::span nodes = mesh_.corners_of(cell);
             for (std::size_t i = 0; usable[cell] != 0 && i < nodes.size(); ++i) {
                 for (std::size_t j = i + 1; j < nodes.size(); ++j) {
                     const std::pair<Mesh::Index, Mesh::Index> two = std::minmax({of(nodes[i]), of(nodes[j])});
@@ -163,8 +163,8 @@ void find_cracks(Checked& c, const BoundaryContacts& touching, const std::vector
     // Of cells that meet where they must not, one with a node and one with its twin, or with what it hangs on.
     std::vector<std::uint8_t> twin(mesh.point_count(), 0);
     const auto find_cause = [&](Mesh::Index cell, Mesh::Index other) {
-        const std::span others = nodes_of(mesh, static_cast<std::size_t>(other));
-        for (const Mesh::Index a : nodes_of(mesh, static_cast<std::size_t>(cell))) {
+        const std::span others = mesh.corners_of(static_cast<std::size_t>(other));
+        for (const Mesh::Index a : mesh.corners_of(static_cast<std::size_t>(cell))) {
             for (const Mesh::Index b : others) {
                 if (a == b || cracks.of(a) != cracks.of(b)) continue;
                 twin[static_cast<std::size_t>(a)] = twin[static_cast<std::size_t>(b)] = 1;

@@ -70,7 +70,7 @@ struct FacetTester {
             const bool mutual = opposite(cell, p, i, node);
             if (mutual && one == Sign::negative) continue;
             const auto q = corner_points(mesh, there);
-            const Mesh::Index back = nodes_of(mesh, cell)[i];
+            const Mesh::Index back = mesh.corners_of(cell)[i];
             const Sign other_one = mutual ? one : side(there, q, back);
             if (one == Sign::positive || other_one == Sign::positive)
                 ++out.violations;
@@ -83,20 +83,20 @@ struct FacetTester {
 
     /// The node lies on the other side of the facet opposite to corner i than the cell.
     bool opposite(std::size_t cell, std::array<const double*, 4> p, std::size_t i, Mesh::Index node) const {
-        p[i] = node_at(mesh, node);
+        p[i] = mesh.point(node);
         return exact_sign(mesh.dimension, p) * c.orientation[cell] < 0;
     }
 
     /// Positive if the node lies strictly in the cell's sphere, zero on it.
     Sign side(std::size_t cell, const std::array<const double*, 4>& p, Mesh::Index node) const {
-        const double* const at = node_at(mesh, node);
+        const double* const at = mesh.point(node);
         const Sign s = mesh.dimension == 2 ? incircle(p[0], p[1], p[2], at) : insphere(p[0], p[1], p[2], p[3], at);
         return static_cast<Sign>(static_cast<int>(s) * c.orientation[cell]);
     }
 
     void note_depth(std::size_t cell, const std::array<const double*, 4>& p, Mesh::Index node,
                     DelaunayReport& out) const {
-        add({0, 0, 0, depth(mesh.dimension, p.data(), node_at(mesh, node)), static_cast<Mesh::Index>(cell), node}, out);
+        add({0, 0, 0, depth(mesh.dimension, p.data(), mesh.point(node)), static_cast<Mesh::Index>(cell), node}, out);
     }
 
     /// The node of `cell` that is opposite to its facet to `to`.

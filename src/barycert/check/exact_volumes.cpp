@@ -1,4 +1,4 @@
-#include "barycert/check/exact_volumes.hpp"
+#include "barycert/check/stages.hpp"
 
 #include <cmath>
 

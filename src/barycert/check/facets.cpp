@@ -19,7 +19,7 @@ Triple ascending(Triple nodes) {
 /// The nodes of the facet opposite to `corner`, in the order that turns its normal outward, if the cell is not
 /// degenerate. 2D: two of them.
 Triple outward_nodes(const Checked& c, Mesh::Index cell, std::int32_t corner) {
-    const std::span nodes = nodes_of(c.mesh, static_cast<std::size_t>(cell));
+    const std::span nodes = c.mesh.corners_of(static_cast<std::size_t>(cell));
     const auto order = mesh::outward_corners(c.mesh.dimension, static_cast<std::size_t>(corner));
     Triple out{-1, -1, -1};
     for (std::size_t i = 0; i + 1 < nodes.size(); ++i) out[i] = nodes[order[i]];
@@ -63,7 +63,7 @@ struct FacetChecker {
     int side(const mesh::CellFacet& f) const { return c.degenerate(f.cell) ? 0 : parity(c.mesh.dimension, outward(f)); }
 
     Mesh::Index apex(const mesh::CellFacet& f) const {
-        return nodes_of(c.mesh, static_cast<std::size_t>(f.cell))[static_cast<std::size_t>(f.corner)];
+        return c.mesh.corners_of(static_cast<std::size_t>(f.cell))[static_cast<std::size_t>(f.corner)];
     }
 
     /// Two cells with a common facet and apex are the same. They share every facet: it is told at the one opposite to

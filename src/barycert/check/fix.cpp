@@ -24,14 +24,6 @@ std::size_t at(Index i) {
     return static_cast<std::size_t>(i);
 }
 
-/// Only these rows, if there are any.
-template <class T>
-void keep(std::vector<T>& values, std::size_t size, const std::vector<Index>& rows) {
-    std::vector<T> kept;
-    if (!values.empty()) mesh::append_rows_of(values, size, rows, kept);
-    values = std::move(kept);
-}
-
 /// Of rows sorted by their keys, those that go: all but the first of a key.
 template <class Key>
 void split(const std::vector<std::pair<Key, Index>>& rows, bool twins_go, std::vector<Index>& kept,
@@ -145,9 +137,9 @@ private:
         for (auto* list : {&mesh_.cells, &mesh_.mid_nodes, &mesh_.faces, &mesh_.face_mid_nodes}) {
             for (Index& n : *list) n = number[at(n)];
         }
-        keep(mesh_.points, at(old_.dimension), kept);
-        keep(mesh_.point_markers, 1, kept);
-        for (Field& f : mesh_.point_fields) keep(f.data, at(f.components), kept);
+        mesh::keep_rows(mesh_.points, at(old_.dimension), kept);
+        mesh::keep_rows(mesh_.point_markers, 1, kept);
+        for (Field& f : mesh_.point_fields) mesh::keep_rows(f.data, at(f.components), kept);
     }
 
     static void compare_values(const Field& f, const std::vector<Twin>& twins, std::vector<MergedField>& to) {
@@ -178,7 +170,7 @@ private:
 
     Nodes sorted_nodes(std::size_t cell) const {
         Nodes nodes{-1, -1, -1, -1};
-        std::ranges::copy(check::nodes_of(mesh_, cell), nodes.begin());
+        std::ranges::copy(mesh_.corners_of(cell), nodes.begin());
         std::ranges::sort(nodes);  // a triangle's first is -1
         return nodes;
     }
@@ -190,7 +182,7 @@ private:
         };
         const auto drop = [&](Index cell, DefectKind why) {
             report_.dropped.push_back({cell, why});
-            report_.collapsed += std::ranges::any_of(check::nodes_of(old_, at(cell)), is_merged) ? 1 : 0;
+            report_.collapsed += std::ranges::any_of(old_.corners_of(at(cell)), is_merged) ? 1 : 0;
         };
         for (std::size_t cell = 0; cell < mesh_.cell_count(); ++cell) {
             const Nodes nodes = sorted_nodes(cell);
@@ -215,14 +207,14 @@ private:
         if (report_.dropped.empty()) return;
         std::ranges::sort(kept);
         std::ranges::sort(report_.dropped, {}, &DroppedCell::cell);
-        keep(mesh_.cells, mesh_.corners(), kept);
-        keep(mesh_.mid_nodes, mesh::edges_of(mesh_.dimension).size(), kept);
-        for (Field& f : mesh_.cell_fields) keep(f.data, at(f.components), kept);
+        mesh::keep_rows(mesh_.cells, mesh_.corners(), kept);
+        mesh::keep_rows(mesh_.mid_nodes, mesh::edges_of(mesh_.dimension).size(), kept);
+        for (Field& f : mesh_.cell_fields) mesh::keep_rows(f.data, at(f.components), kept);
         for (Column& labels : mesh_.cell_labels) labels = mesh::labels_at(labels, kept);
         if (mesh_.cell_numbers.empty())
             mesh_.cell_numbers = kept;
         else
-            keep(mesh_.cell_numbers, 1, kept);
+            mesh::keep_rows(mesh_.cell_numbers, 1, kept);
     }
 
     /// Those that no cell has, and of those that merging made the same all but the first.
@@ -243,9 +235,9 @@ private:
         report_.dropped_faces = mesh_.face_count() - kept.size();
         if (report_.dropped_faces == 0) return;
         std::ranges::sort(kept);
-        keep(mesh_.faces, 3, kept);
-        keep(mesh_.face_mid_nodes, 3, kept);
-        keep(mesh_.face_markers, 1, kept);
+        mesh::keep_rows(mesh_.faces, 3, kept);
+        mesh::keep_rows(mesh_.face_mid_nodes, 3, kept);
+        mesh::keep_rows(mesh_.face_markers, 1, kept);
     }
 
     /// The last two vertices of negative cells swapped, and their mid-edge nodes and neighbours with them.

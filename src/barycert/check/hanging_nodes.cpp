@@ -111,7 +111,7 @@ public:
 
 private:
     static std::size_t index(Index i) { return static_cast<std::size_t>(i); }
-    const double* at(Index node) const { return node_at(mesh_, node); }
+    const double* at(Index node) const { return mesh_.point(node); }
 
     /// Its sign: that of the node in the cell, at corner i.
     int weight(Index node, std::size_t cell, std::size_t i) const {
@@ -144,7 +144,7 @@ private:
 void leave_out_right_ones(const Checked& c, const NearFaces& faces, std::vector<HangingNode>& all) {
     std::ranges::sort(all, {}, &HangingNode::face);
     for (std::size_t cell = 0; cell < c.usable.size() && !all.empty(); ++cell) {
-        const std::span nodes = nodes_of(c.mesh, cell);
+        const std::span nodes = c.mesh.corners_of(cell);
         const auto has = [&](Index n) { return n < 0 || std::ranges::count(nodes, n) != 0; };
         for (const Index node : nodes) {
             if (c.usable[cell] == 0) break;
@@ -179,7 +179,7 @@ Found<HangingNode> nearly_hanging(const Checked& c, const std::vector<double>& r
                 if (!facet.oriented || faces.is_far(node, facet)) return true;
                 HangingNode h = faces.face_at(node, facet);
                 // A node that hangs is told as such.
-                if (h.face[1] < 0 || face_around(d, placed(c.mesh, facet), node_at(c.mesh, node))[0] >= 0) return true;
+                if (h.face[1] < 0 || face_around(d, placed(c.mesh, facet), c.mesh.point(node))[0] >= 0) return true;
                 if (!faces.is_beyond(node, facet)) h.cell = -1;
                 part.push_back(h);
                 return part.size() <= limit;

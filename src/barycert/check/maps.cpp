@@ -19,7 +19,7 @@ struct CurvedCell {
     iso::Places places = {};
 
     CurvedCell(const Mesh& mesh, const mesh::CellMaps& maps, std::size_t cell, Mesh::Index whole)
-        : corners(nodes_of(mesh, cell)) {
+        : corners(mesh.corners_of(cell)) {
         const auto w = static_cast<std::size_t>(whole);
         const iso::Reference* const of = maps.reference(w);
         if (of == nullptr || !of->is_simplex()) return;

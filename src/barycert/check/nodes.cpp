@@ -9,7 +9,7 @@ namespace {
 
 std::array<double, 3> node_place(const Mesh& mesh, Mesh::Index node) {
     std::array<double, 3> at{0, 0, 0};
-    std::copy_n(node_at(mesh, node), mesh.dimension, at.begin());
+    std::copy_n(mesh.point(node), mesh.dimension, at.begin());
     return at;
 }
 
@@ -57,8 +57,8 @@ void check_nodes(Checked& c) {
 Box box_around(const Mesh& mesh, Mesh::Index node, double radius) {
     Box box{};
     for (std::size_t k = 0; k < static_cast<std::size_t>(mesh.dimension); ++k) {
-        box.low[k] = node_at(mesh, node)[k] - radius;
-        box.high[k] = node_at(mesh, node)[k] + radius;
+        box.low[k] = mesh.point(node)[k] - radius;
+        box.high[k] = mesh.point(node)[k] + radius;
     }
     return box;
 }

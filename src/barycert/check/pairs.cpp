@@ -95,10 +95,10 @@ std::vector<CellPair> find_nested_parts(Checked& c, const std::vector<std::uint3
     // Most cells are far from the few that are asked for: one byte a node tells.
     std::vector<std::uint8_t> codes(mesh.point_count());
     for (std::size_t i = 0; i < codes.size(); ++i)
-        codes[i] = outcode(d, *candidates.bounds(), node_at(mesh, static_cast<Mesh::Index>(i)));
+        codes[i] = outcode(d, *candidates.bounds(), mesh.point(static_cast<Mesh::Index>(i)));
     const auto is_far = [&](std::size_t cell) {
         unsigned common = ~0U;
-        for (const Mesh::Index node : nodes_of(mesh, cell)) common &= codes[static_cast<std::size_t>(node)];
+        for (const Mesh::Index node : mesh.corners_of(cell)) common &= codes[static_cast<std::size_t>(node)];
         return common != 0;
     };
     // For each piece the lowest cell that overlaps: no cell above it needs to be asked, and threads agree on it.

@@ -1,6 +1,5 @@
 #include "barycert/weights.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 

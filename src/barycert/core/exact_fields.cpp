@@ -1,10 +1,7 @@
 // Gradients of linear fields, values of quadratic ones, and values in perspective, in integers.
-#include <algorithm>
 #include <cmath>
-#include <type_traits>
 
 #include "barycert/core/exact_tier.hpp"
-#include "barycert/core/lanes.hpp"
 #include "barycert/core/numerators-inl.hpp"
 #include "barycert/core/scaled_double.hpp"
 

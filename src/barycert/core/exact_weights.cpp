@@ -1,6 +1,5 @@
 #include "barycert/core/exact_tier.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "barycert/core/numerators-inl.hpp"

@@ -20,7 +20,7 @@ Status check_usable(const double* vertices, const double* point, const std::stri
                      .found = std::to_string(x),
                      .remedy = "clip the triangle in clip space, before the division by w"};
     }
-    if (all_finite(point, 2)) return Done{};
+    if (base::all_finite({point, 2})) return Done{};
     const int k = std::isfinite(point[0]) ? 1 : 0;
     return base::not_finite(which + "coordinate " + std::to_string(k) + " of the point", point[k]);
 }
@@ -77,7 +77,7 @@ Status perspective_values(const double* vertices, std::span<const double> points
     constexpr double origin[2] = {};
     if (Status good = core::check_usable(vertices, origin); !good) return good;
     TierCounts counts;
-    const bool finite_values = core::all_finite(values.data(), static_cast<int>(values.size()));
+    const bool finite_values = base::all_finite(values);
     double x[core::block_size] = {}, y[core::block_size] = {};
     const core::LaneArrays results(stride);
     std::uint32_t undecided[core::block_size];

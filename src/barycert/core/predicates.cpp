@@ -1,10 +1,6 @@
-#include "barycert/predicates.hpp"
 
-#include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <cstddef>
-#include <string>
 
 #include "barycert/base/finite.hpp"
 #include "barycert/base/strict_math.hpp"

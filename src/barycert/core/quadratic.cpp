@@ -21,15 +21,14 @@ Status check_quadratic(const MeshQueries& q, std::size_t mid_nodes, int componen
 /// The components with a value that takes part and is not finite; what is not finite is overwritten. A function of its
 /// own, for its integers must not lie on the stack below those of the value.
 [[gnu::noinline]] std::vector<int> unusable_components(Simplex s, const SingleCase& c, double* values, int components) {
-    const int nodes = vertex_count(s) + mid_node_count(s);
+    const auto nodes = static_cast<std::size_t>(vertex_count(s) + mid_node_count(s));
     std::vector<int> unusable;
     std::optional<ExactWeights> weights;
     for (int component = 0; component < components; ++component) {
-        double* const of_component = values + nodes * component;
-        if (all_finite(of_component, nodes)) continue;
+        const std::span of_component(values + nodes * static_cast<std::size_t>(component), nodes);
+        if (base::all_finite(of_component)) continue;
         if (!weights) weights.emplace(s, c.vertices.data(), c.point.data());
-        if (!weights->leave_out_not_finite({of_component, static_cast<std::size_t>(nodes)}))
-            unusable.push_back(component);
+        if (!weights->leave_out_not_finite(of_component)) unusable.push_back(component);
     }
     return unusable;
 }

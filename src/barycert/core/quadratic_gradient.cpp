@@ -1,11 +1,5 @@
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <span>
-
+#include "barycert/core/blocks.hpp"
 #include "barycert/core/exact_tier.hpp"
-#include "barycert/core/input_checks.hpp"
-#include "barycert/core/lanes.hpp"
 #include "barycert/core/numerators-inl.hpp"
 #include "barycert/core/scaled_double.hpp"
 #include "barycert/environment.hpp"

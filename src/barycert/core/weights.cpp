@@ -132,7 +132,7 @@ void mend_plain_values(Simplex s, const CaseBlock& cases, std::span<const std::u
             double f[10];
             const double* at[10] = {};
             for (std::size_t i = 0; i < m; ++i) at[i] = &(f[i] = values[m * c + i][j]);
-            if (all_finite(f, nodes)) continue;
+            if (base::all_finite({f, m})) continue;
             double* const to[1] = {&out[all * j + c]};
             *to[0] = nan;
             if (!all_finite(s, one.vertices.data(), one.point.data())) continue;

@@ -1,5 +1,4 @@
 // What of a figure cannot be drawn.
-#include <fmt/format.h>
 
 #include <cmath>
 

@@ -1,7 +1,5 @@
-#include "barycert/figure.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "barycert/draw/figure_values.hpp"
 #include "barycert/draw/files.hpp"
@@ -33,7 +31,7 @@ RasterSize size_of(const Picture& p, double scale) {
 }
 
 Status write(const std::string& path, Figure figure, FigureCounts& counts) {
-    if (!is_picture_name(path))
+    if (!is_figure_name(path))
         return Error{.what = "pictures have other names", .expected = ".png, .svg or .pdf", .found = path};
     if (Status good = check(figure); !good) return good;
     FigureOptions& o = figure.options;
@@ -78,7 +76,7 @@ Result<Image> draw_figure(const Figure& figure, FigureCounts* counts) {
 }
 
 bool is_figure_name(std::string_view path) {
-    return draw::is_picture_name(path);
+    return io::has_one_of(path, {".png", ".svg", ".pdf"});
 }
 
 Status write_figure(const std::string& path, const Figure& figure, FigureCounts* counts) {

@@ -75,8 +75,7 @@ Result<ColourScale> scale_of(const Figure& figure, FigureCounts& counts) {
         if (counts_for(x) && x > scale.high) ++counts.above;
     });
     if (!figure.grid) return scale;
-    GridCounts& of_grid =
-        counts.grid = {.below = counts.below, .above = counts.above, .low = scale.low, .high = scale.high};
+    GridCounts& of_grid = counts.grid = {};
     for (std::size_t i = 0; i < figure.grid->values.size(); ++i) {
         const bool valid = figure.grid->valid.empty() || figure.grid->valid[i] != 0;
         ++(is_drawn(*figure.grid, o.log, i) ? of_grid.drawn : valid ? of_grid.not_finite : of_grid.outside);

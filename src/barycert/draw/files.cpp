@@ -116,11 +116,10 @@ private:
         set(item.colour.value_or(look.colour));
         switch (item.kind) {
             case Kind::lines:
-            case Kind::dots:
-                for (const auto& line : item.lines) trace(line, item.kind == Kind::dots);
-                return stroke(look, item.kind == Kind::dots);
+                for (const auto& line : item.lines) trace(line);
+                return stroke(look);
             case Kind::area:
-                for (const auto& line : item.lines) trace(line, false);
+                for (const auto& line : item.lines) trace(line);
                 cairo_close_path(to_.get());
                 return cairo_fill(to_.get());
             case Kind::bar:
@@ -136,17 +135,14 @@ private:
         }
     }
 
-    void trace(const std::vector<Pixel>& line, bool dots) {
-        for (std::size_t i = 0; i < line.size(); ++i) {
-            if (i == 0 || dots) cairo_move_to(to_.get(), line[i].x, line[i].y);
-            if (i != 0 || dots) cairo_line_to(to_.get(), line[i].x, line[i].y);
-        }
+    void trace(const std::vector<Pixel>& line) {
+        for (std::size_t i = 0; i < line.size(); ++i)
+            (i == 0 ? cairo_move_to : cairo_line_to)(to_.get(), line[i].x, line[i].y);
     }
 
-    void stroke(const Look& look, bool dots) {
+    void stroke(const Look& look) {
         const double dash[2] = {look.on, look.off};
         cairo_set_dash(to_.get(), dash, look.on > 0 ? 2 : 0, 0);
-        cairo_set_line_cap(to_.get(), dots ? CAIRO_LINE_CAP_ROUND : CAIRO_LINE_CAP_BUTT);
         cairo_set_line_width(to_.get(), look.line);
         cairo_stroke(to_.get());
     }
@@ -248,10 +244,6 @@ Result<Image> drawn(const Picture& picture, Rgba ground, double scale) {
         }
     }
     return image;
-}
-
-bool is_picture_name(std::string_view path) {
-    return io::has_one_of(path, {".png", ".svg", ".pdf"});
 }
 
 Status write_picture(const std::string& path, const Picture& picture, Rgba ground, double scale) {

@@ -11,9 +11,6 @@ double text_width(std::string_view text, double size);
 /// The picture in pixels, `scale` for one of its own. Error: as of blank_image; a side above 32767.
 Result<Image> drawn(const Picture& picture, Rgba ground, double scale = 1);
 
-/// True for the suffixes that write_picture takes: .png .svg .pdf.
-bool is_picture_name(std::string_view path);
-
 /// By the suffix. `scale`: pixels of a .png for one of the picture. Error: as `drawn`; the file cannot be written.
 Status write_picture(const std::string& path, const Picture& picture, Rgba ground, double scale = 1);
 

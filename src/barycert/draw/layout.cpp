@@ -1,10 +1,5 @@
 #include "barycert/draw/layout.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "barycert/base/strict_math.hpp"
 #include "barycert/draw/axes.hpp"
 #include "barycert/draw/figure_values.hpp"

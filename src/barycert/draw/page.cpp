@@ -1,9 +1,5 @@
 #include "barycert/draw/page.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
 #include <cstring>
 
 #include "barycert/base/embedded.hpp"
@@ -25,7 +21,7 @@ using Json = nlohmann::ordered_json;
 
 /// Deflated, in base64. Memory: three times the bytes.
 std::string packed(std::string_view bytes) {
-    const std::string out = io::pack(io::Compressor::zlib, bytes, 6);
+    const std::string out = io::pack(VtkData::zlib, bytes, 6);
     if (out.empty()) throw std::bad_alloc();
     return base64(out);
 }
@@ -216,7 +212,8 @@ Status write_page(const std::string& path, const PageScene& scene, FigureCounts&
     file.write(fmt::format(R"(<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8"/><meta name="viewport" content="width=device-width,initial-scale=1"/>
 <title>{0}</title><style>
-:root{{color-scheme:light dark}}body{{margin:0 auto;padding:16px;max-width:1120px;font:15px/1.5 system-ui,"DejaVu Sans",sans-serif}}
+:root{{color-scheme:light dark}}body{{margin:0 auto;padding:16px;max-width:1120px;background:#fff;color:#1d2227;font:15px/1.5 system-ui,sans-serif}}
+@media (prefers-color-scheme:dark){{body{{background:#15191c;color:#e4e8eb}}}}@media print{{body{{background:#fff;color:#000}}}}
 h1{{font-size:20px;margin:0 0 8px}}figure{{margin:0}}img{{max-width:100%;height:auto}}
 </style></head><body><main><h1>{0}</h1>
 {1}</main></body></html>

@@ -6,13 +6,7 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <memory>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
 
 #include "barycert/raster.hpp"
 
@@ -26,10 +20,10 @@ enum class Mark : unsigned char { circle, square, diamond, up, down, cross };
 
 /// What is drawn, by one look. Which members count depends on `kind`.
 struct PictureItem {
-    enum class Kind : unsigned char { lines, area, dots, bar, circle, text, image };
+    enum class Kind : unsigned char { lines, area, bar, circle, text, image };
     Kind kind;
     std::string style = {};                      ///< classes; "m" and "e" are the anchors middle and end of a text
-    std::vector<std::vector<Pixel>> lines = {};  ///< of an area one, closed; of dots one
+    std::vector<std::vector<Pixel>> lines = {};  ///< of an area one, closed
     Pixel at = {};                               ///< the upper left corner, the centre, or where the text stands
     double width = 0, height = 0;                ///< of a circle its radius
     std::string text = {};                       ///< or what a page tells when it is pointed at
@@ -51,14 +45,11 @@ public:
     void path(std::vector<Pixel> corners, std::string style) {
         if (corners.size() > 1) items.push_back({PictureItem::Kind::lines, std::move(style), {std::move(corners)}});
     }
-    /// Many in one item; and dots likewise.
+    /// Many in one item.
     void lines(const std::vector<std::pair<Pixel, Pixel>>& segments, std::string style) {
         if (segments.empty()) return;
         PictureItem& item = items.emplace_back(PictureItem{PictureItem::Kind::lines, std::move(style)});
         for (const auto& [a, b] : segments) item.lines.push_back({a, b});
-    }
-    void dots(std::vector<Pixel> at, std::string style) {
-        if (!at.empty()) items.push_back({PictureItem::Kind::dots, std::move(style), {std::move(at)}});
     }
     void area(std::vector<Pixel> corners, std::string style, std::optional<Rgba> colour = {}) {
         items.push_back({.kind = PictureItem::Kind::area, .style = std::move(style), .lines = {std::move(corners)}});

@@ -47,10 +47,9 @@ private:
                                                               : "";
             return fmt::format(" font-size=\"{:g}\" fill=\"{}\"{}", l.size, colour_text(colour), anchor);
         }
-        return fmt::format(" fill=\"none\" stroke=\"{}\" stroke-width=\"{:g}\" stroke-linejoin=\"round\"{}{}",
+        return fmt::format(" fill=\"none\" stroke=\"{}\" stroke-width=\"{:g}\" stroke-linejoin=\"round\"{}",
                            colour_text(colour), l.line,
-                           l.on > 0 ? fmt::format(" stroke-dasharray=\"{:g} {:g}\"", l.on, l.off) : "",
-                           item.kind == PictureItem::Kind::dots ? " stroke-linecap=\"round\"" : "");
+                           l.on > 0 ? fmt::format(" stroke-dasharray=\"{:g} {:g}\"", l.on, l.off) : "");
     }
     static std::string opacity(Rgba c) {
         return c[3] == 255 ? "" : fmt::format(" fill-opacity=\"{:.3g}\"", c[3] / 255.0);
@@ -65,7 +64,6 @@ private:
         switch (item.kind) {
             case Kind::lines:
             case Kind::area:
-            case Kind::dots:
                 return add_path(item);
             case Kind::bar:
                 out_ += fmt::format("<rect{} x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\">{}</rect>\n",
@@ -94,9 +92,8 @@ private:
     }
 
     void add_path(const PictureItem& item) {
-        const bool dots = item.kind == PictureItem::Kind::dots, closed = item.kind == PictureItem::Kind::area;
+        const bool closed = item.kind == PictureItem::Kind::area;
         const std::string path = base::joined(item.lines, "", [&](const std::vector<Pixel>& line) {
-            if (dots) return base::joined(line, "", [](Pixel p) { return fmt::format("M{:.1f} {:.1f}h0", p.x, p.y); });
             return "M" + base::joined(line, "L", [](Pixel p) { return fmt::format("{:.1f} {:.1f}", p.x, p.y); }) +
                    (closed ? "Z" : "");
         });

@@ -1,7 +1,5 @@
 #include "barycert/draw/view.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include "barycert/base/arena.hpp"
@@ -92,13 +90,8 @@ Matrix4 fitting_camera(const Figure& figure, const Space& space, const ViewAxes&
 
 /// From above, without perspective.
 Matrix4 fitting_map(const Space& space, double aspect, double part, double zoom) {
-    std::array<Range, 2> range;
-    for (std::size_t k = 0; k < 2; ++k) {
-        const Range& box = space.box[k];
-        const double side = box.empty() ? 0 : box.half() / space.half;
-        range[k] = {-side, side};
-    }
-    double half = std::max(range[0].half() / aspect, range[1].half()) / part / zoom;
+    const auto side = [&](std::size_t k) { return space.box[k].empty() ? 0 : space.box[k].half() / space.half; };
+    double half = std::max(side(0) / aspect, side(1)) / part / zoom;
     if (!(half > 0)) half = 1;
     // No error can occur: half is above 0.
     return orthographic(-half * aspect, half * aspect, -half, half, -1, 1).value();
@@ -116,9 +109,7 @@ double brightness(const Vector3& a, const Vector3& b, const Vector3& c, const Ve
 Vector3 light_of(const ViewAxes& axes) {
     Vector3 light;
     for (std::size_t k = 0; k < 3; ++k) light[k] = axes.towards[k] + 0.5 * axes.up[k] - 0.4 * axes.right[k];
-    const double length = std::sqrt(dot(light, light));
-    for (double& x : light) x /= length;
-    return light;
+    return base::unit(light);
 }
 
 /// The colour of a triangle: of its values at the corners, or its own.
@@ -201,9 +192,7 @@ private:
         const std::int32_t sides = d_ == 2 ? 2 : 10;  // in the plane the left and the right one
         Vector3 other{};
         other[d_ == 2 ? 2 : std::fabs(along[0]) < 0.6 ? 0 : 1] = 1;
-        Vector3 across = cross(along, other);
-        const double norm = std::sqrt(dot(across, across));
-        for (double& x : across) x /= norm;
+        const Vector3 across = base::unit(cross(along, other));
         const Vector3 third = cross(along, across);
         const auto add_at = [&](double at, double radius, double turn) {
             Vector3 p;
@@ -235,18 +224,6 @@ private:
     const ColourScale& scale_;
 };
 
-std::vector<double> in_clip_space(std::span<const double> positions, const Matrix4& m) {
-    std::vector<double> clip(positions.size());
-    base::parallel_for_each(positions.size() / 4, std::size_t{1} << 14, [&](std::size_t i) {
-        const double* const p = positions.data() + 4 * i;
-        for (std::size_t r = 0; r < 4; ++r) {
-            const double* const row = m.m.data() + 4 * r;
-            clip[4 * i + r] = row[0] * p[0] + row[1] * p[1] + row[2] * p[2] + row[3] * p[3];
-        }
-    });
-    return clip;
-}
-
 }  // namespace
 
 Space::Space(const Figure& figure) : dimension(static_cast<std::size_t>(figure.dimension)) {
@@ -275,13 +252,9 @@ View::View(const Figure& figure, RasterSize window, double part)
 }
 
 Pixel View::at(const Vector3& point) const {
-    const Vector3 n = space_(point.data());
-    const auto row = [&](std::size_t r) {
-        const double* const m = &to_clip_.m[4 * r];
-        return m[0] * n[0] + m[1] * n[1] + m[2] * n[2] + m[3];
-    };
-    const double w = row(3);
-    return {(row(0) / w + 1) * 0.5 * window_.width, (1 - row(1) / w) * 0.5 * window_.height};
+    const auto [x, y, z] = space_(point.data());
+    const auto p = raster::in_clip_space(std::array{x, y, z, 1.0}, to_clip_, Rounding::plain);
+    return {(p[0] / p[3] + 1) * 0.5 * window_.width, (1 - p[1] / p[3]) * 0.5 * window_.height};
 }
 
 std::array<double, 2> View::seen(std::size_t axis) const {
@@ -299,7 +272,7 @@ Image View::draw(const ColourScale& scale, FigureCounts& counts) const {
             const Vector3 p = space_(of.points.data() + i);
             positions.insert(positions.end(), {p[0], p[1], p[2], 1});
         }
-        const std::vector<double> at = in_clip_space(positions, to_clip_);
+        const std::vector<double> at = raster::in_clip_space(positions, to_clip_, Rounding::plain);
         for (std::size_t i = 0; i + 1 < of.segments.size(); i += 2) {
             raster::Line& line = lines.emplace_back();
             line.width = of.width * o.resolution;
@@ -309,7 +282,7 @@ Image View::draw(const ColourScale& scale, FigureCounts& counts) const {
         }
     };
     for (const FigureLines& l : figure_.lines) add(l);
-    const std::vector<double> clip = in_clip_space(parts.positions, to_clip_);
+    const std::vector<double> clip = raster::in_clip_space(parts.positions, to_clip_, Rounding::plain);
     const bool by_value = std::ranges::any_of(parts.paints, &Paint::by_value);
     raster::Layers layers{.size = window_,
                           .samples = o.samples,

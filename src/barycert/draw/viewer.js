@@ -3,9 +3,7 @@
 // is 2.
 "use strict";
 
-// Exact numbers: doubles as integers times a common power of two.
-
-/// { all, exponent }: numbers[i] = all[i] * 2^exponent.
+/// Doubles as integers times a common power of two: numbers[i] = all[i] * 2^exponent.
 function integers(numbers) {
   const view = new DataView(new ArrayBuffer(8));
   const parts = numbers.map((x) => {
@@ -81,12 +79,14 @@ class Viewer {
     this.choices = choicesOf(data);
     this.choice = this.choices.find((c) => c.name === data.field) || null;
     this.surfaces = data.surfaces.map((s) => this.surfaceOf(s));
-    this.renderer = new THREE.WebGLRenderer({ antialias: true, alpha: true, preserveDrawingBuffer: true });  // or the still picture stays
+    this.renderer = new THREE.WebGLRenderer({ antialias: true, alpha: true, preserveDrawingBuffer: true });
     this.layOut();
     this.renderer.localClippingEnabled = true;
     this.stage.append(this.renderer.domElement);
     this.scene = new THREE.Scene();
     this.scene.add(new THREE.AmbientLight(0xffffff, 1.3));
+    this.light = new THREE.DirectionalLight(0xffffff, 2.2);  // from the upper left behind the camera
+    this.light.position.set(-1, 1, 2);
     this.addLines();
     this.setCamera();
     this.colour();
@@ -108,8 +108,7 @@ class Viewer {
       const k = [0, 1, 2].reduce((best, i) => (Math.abs(b[i] - a[i]) > Math.abs(b[best] - a[best]) ? i : best), 0);
       return a[k] === b[k] ? 0 : (p[k] - a[k]) / (b[k] - a[k]);
     };
-    const triangles = this.data.arrays[s.triangles], cells = this.data.arrays[s.cells];
-    return { triangles, cells, at, ends, part, colour: s.colour, clear: s.clear };
+    return { ...s, triangles: this.data.arrays[s.triangles], cells: this.data.arrays[s.cells], at, ends, part };
   }
 
   node(i) {
@@ -119,63 +118,59 @@ class Viewer {
     return [0, 1, 2].map((k) => (p[k] - this.data.middle[k]) / this.data.half);
   }
 
-  /// The controls above the stage, the colour bar beside it, and what a click tells below; the still picture goes.
+  /// The controls above the stage, the colour bar below it, and what a click tells; the still picture goes.
   layOut() {
-    const made = (tag, properties, ...inside) => {
-      const element = Object.assign(document.createElement(tag), properties);
-      element.append(...inside);
-      return element;
-    };
-    const chosen = (label, options, act) => {
-      const list = made("select", {}, ...options.map((text) => made("option", { value: text, textContent: text })));
-      list.addEventListener("change", act);
-      return [list, made("label", {}, label + " ", list)];
-    };
-    const [field, fieldLabel] = chosen("Field", ["none", ...this.choices.map((c) => c.name)], () => {
-      this.choice = this.choices.find((c) => c.name === field.value) || null;
+    const { data } = this, all = document.createElement("div");
+    all.innerHTML = `<div class="tools"><label>Field <select name="field"></select></label>
+<label>Cut <select name="side"></select></label><input type="range" name="where" max="1000" value="500" aria-label="where the plane cuts"/>
+<label><input type="checkbox" name="edges" checked=""/> lines</label><label><input type="checkbox" name="through"/> see through</label>
+<button type="button">Reset</button></div><div class="stage"></div><div class="bar"></div><output class="said"></output>`;
+    for (const part of all.querySelectorAll("[name]")) this[part.name] = part;
+    for (const name of ["stage", "bar", "said"]) this[name] = all.querySelector("." + name);
+    this.field.append(...["none", ...this.choices.map((c) => c.name)].map((text) => new Option(text)));
+    this.field.value = this.choice ? this.choice.name : "none";
+    this.side.append(...["none", "x", "-x", "y", "-y", "z", "-z"].map((text) => new Option(text)));
+    this.through.checked = data.seeThrough;
+    this.field.parentElement.hidden = !this.choices.length;
+    this.side.parentElement.hidden = this.where.hidden = this.corners === 3;
+    this.edges.parentElement.hidden = !data.lines.length;
+    this.through.parentElement.hidden = !data.surfaces.some((s) => s.clear);
+    this.field.addEventListener("change", () => {
+      this.choice = this.choices.find((c) => c.name === this.field.value) || null;
       this.colour();
       if (this.picked) this.tell();
     });
-    field.value = this.choice ? this.choice.name : "none";
-    const [side, sideLabel] = chosen("Cut", ["none", "x", "-x", "y", "-y", "z", "-z"], () => this.cut());
-    const where = made("input", { type: "range", min: 0, max: 1000, value: 500, ariaLabel: "where the plane cuts" });
-    where.addEventListener("input", () => this.cut());
-    const box = (label, checked, act) => {
-      const input = made("input", { type: "checkbox", checked });
-      input.addEventListener("change", act);
-      return [input, made("label", {}, input, " " + label)];
-    };
-    const [edges, edgesLabel] = box("lines", true, () => this.draw());
-    const [through, throughLabel] = box("see through", this.data.seeThrough, () => this.colour());
-    const back = made("button", { type: "button", textContent: "Reset" });
-    back.addEventListener("click", () => this.setCamera());
-    Object.assign(this, { side, where, edges, through });
-    const tools = made("div", { className: "tools" }, ...(this.choices.length ? [fieldLabel] : []),
-      ...(this.corners === 4 ? [sideLabel, where] : []),
-      ...(this.data.lines.length ? [edgesLabel] : []), ...(this.data.surfaces.some((s) => s.clear) ? [throughLabel] : []), back);
-    this.labels = this.data.labels.map(({ at, text, bad }) => ({ at, shown: made("span", { textContent: text, className: bad ? "bad" : "" }) }));
-    this.stage = made("div", { className: "stage" }, ...this.labels.map((l) => l.shown));
-    this.bar = made("div", { className: "bar" });
+    this.side.addEventListener("change", () => this.cut());
+    this.where.addEventListener("input", () => this.cut());
+    this.edges.addEventListener("change", () => this.draw());
+    this.through.addEventListener("change", () => this.colour());
+    all.querySelector("button").addEventListener("click", () => this.setCamera());
+    this.labels = data.labels.map(({ at, text, bad }) => {
+      const shown = Object.assign(document.createElement("span"), { textContent: text, className: bad ? "bad" : "" });
+      this.stage.append(shown);
+      return { at, shown };
+    });
     const hint = `Drag to ${this.corners === 3 ? "move" : "turn"} it; click for a cell, its exact weights and value.`;
-    this.said = made("output", { className: "said" }, [hint, ...this.data.told].join(" "));
-    this.figure.querySelector(".still").replaceWith(tools, this.stage, this.bar, this.said);
+    this.said.textContent = [hint, ...data.told].join(" ");
+    this.figure.querySelector(".still").replaceWith(...all.children);
   }
 
   setCamera() {
     const { azimuth, elevation, zoom, parallel } = this.data.camera, plane = this.corners === 3;
     const [a, e] = [(azimuth * Math.PI) / 180, (Math.max(-89.99, Math.min(elevation, 89.99)) * Math.PI) / 180];
     const direction = plane ? [0, 0, 1] : [Math.cos(e) * Math.cos(a), Math.cos(e) * Math.sin(a), Math.sin(e)];
+    if (this.camera) {
+      this.scene.remove(this.camera);
+      this.controls.dispose();
+    }
     this.camera = parallel || plane ? new THREE.OrthographicCamera() : new THREE.PerspectiveCamera(30);
     this.camera.up.set(...(plane ? [0, 1, 0] : [0, 0, 1]));
     this.reach = Math.hypot(...this.data.sides) / this.data.half / 2;
     const away = this.reach / Math.sin(Math.PI / 12);
     this.camera.position.set(...direction.map((x) => x * away));
     Object.assign(this.camera, { near: away / 100, far: 10 * away });
-    this.light = new THREE.DirectionalLight(0xffffff, 2.2);
-    this.light.position.set(-1, 1, 2);
     this.camera.add(this.light, this.light.target);
     this.scene.add(this.camera);
-    if (this.controls) this.controls.dispose();
     this.controls = new THREE.OrbitControls(this.camera, this.renderer.domElement);
     this.controls.enableRotate = !plane;
     this.controls.addEventListener("change", () => this.draw());
@@ -202,7 +197,7 @@ class Viewer {
     else Object.assign(this.camera, { left: -r * aspect, right: r * aspect, top: r, bottom: -r });
     this.camera.updateProjectionMatrix();
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
-    this.renderer.setSize(width, height);
+    this.renderer.setSize(width, height, false);
     this.draw();
   }
 
@@ -247,7 +242,7 @@ class Viewer {
     this.map.colorSpace = THREE.SRGBColorSpace;
     this.map.needsUpdate = true;
     for (const s of this.surfaces) {
-      this.scene.remove(s.mesh);
+      this.drop(s.mesh);
       const numbers = s.triangles.length, corners = { positions: new Float32Array(3 * numbers), uv: new Float32Array(2 * numbers) };
       for (let i = 0; i < numbers; ++i) {
         corners.positions.set(this.placed(s.at(s.triangles[i])), 3 * i);
@@ -258,6 +253,13 @@ class Viewer {
     }
     this.showBar();
     this.cut();
+  }
+
+  drop(mesh) {
+    if (!mesh) return;
+    this.scene.remove(mesh);
+    mesh.geometry.dispose();
+    mesh.material.dispose();
   }
 
   /// Where a value is in the texture: along the colours, or in the row for none.
@@ -284,23 +286,19 @@ class Viewer {
   }
 
   showBar() {
-    this.bar.replaceChildren();
     this.bar.hidden = !this.choice;
     if (!this.choice) return;
     const text = (x) => String(Number(x.toPrecision(4))).replace("-", "\u2212");
     const at = (t) => (this.data.log ? this.low * (this.high / this.low) ** t : this.low + t * (this.high - this.low));
-    const stops = Array.from({ length: 17 }, (_, i) => `rgb(${this.data.map.slice(48 * i - (i === 16 ? 3 : 0)).slice(0, 3)})`);
-    const strip = document.createElement("div"), ticks = document.createElement("p"), title = document.createElement("p");
-    strip.style.background = `linear-gradient(to right,${stops})`;
-    title.textContent = this.choice.name + (this.choice.unit ? ` (${this.choice.unit})` : "");
-    ticks.append(...(this.low <= this.high ? [0, 0.5, 1] : []).map((t) =>
-      Object.assign(document.createElement("span"), { textContent: text(at(t)) })));
-    this.bar.append(title, strip, ticks);
+    const stops = Array.from({ length: 16 }, (_, i) => `rgb(${this.data.map.slice(51 * i, 51 * i + 3)})`);
+    this.bar.innerHTML = `<p></p><div style="background:linear-gradient(to right,${stops})"></div>
+<p>${(this.low <= this.high ? [0, 0.5, 1] : []).map((t) => `<span>${text(at(t))}</span>`).join("")}</p>`;
+    this.bar.firstChild.textContent = this.choice.name + (this.choice.unit ? ` (${this.choice.unit})` : "");
   }
 
   /// By the plane, what is before it goes; cells that are there as a whole show their section.
   cut() {
-    if (this.section) this.scene.remove(this.section.mesh);
+    if (this.section) this.drop(this.section.mesh);
     this.section = this.plane = null;
     const name = this.side.value, k = "xyz".indexOf(name.at(-1));
     if (name !== "none") {
@@ -388,23 +386,30 @@ class Viewer {
       const nodes = Array.from(this.cells.subarray(n * cell, n * cell + n));
       this.mark.geometry = new THREE.BufferGeometry().setFromPoints(nodes.flatMap((a, i) => nodes.slice(i + 1).flatMap((b) =>
         [a, b].map((v) => new THREE.Vector3(...this.placed(this.node(v)))))));
-      const exact = exactWeights(nodes.map((v) => Array.from(this.node(v))), point);
+      const answer = this.answerAt(cell, point);
       const number = this.data.arrays[this.data.numbers], name = this.data.arrays[this.data.nodes];
       const say = (...parts) => this.said.append(Object.assign(document.createElement("p"), { textContent: parts.join("") }));
       say("cell ", number[cell] + base, " at (", point.slice(0, this.data.dimension).join(", "), ")");
-      if (!exact) say("it has no weights: the cell is degenerate");
-      else say("weights ", nodes.map((v, i) => `${nearest(exact.numerators[i], exact.denominator)} of node ${name[v] + base}`).join(", "));
-      if (this.choice && exact) say(this.choice.name, " = ", this.valueOf(nodes, cell, exact), this.choice.unit ? ` ${this.choice.unit}` : "");
+      if (!answer) say("it has no weights: the cell is degenerate");
+      else say("weights ", nodes.map((v, i) => `${answer.weights[i]} of node ${name[v] + base}`).join(", "));
+      if (this.choice && answer) say(this.choice.name, " = ", answer.value, this.choice.unit ? ` ${this.choice.unit}` : "");
     }
     this.draw();
   }
 
-  valueOf(nodes, cell, { numerators, denominator }) {
-    if (this.choice.ofCells) return this.choice.at(cell);
-    const values = nodes.map((v) => this.choice.at(v));
-    if (!values.every(Number.isFinite)) return NaN;
-    const { all, exponent } = integers(values);
-    return nearest(numerators.reduce((sum, n, i) => sum + n * all[i], 0n), denominator, exponent);
+  /// The weights of the point in the cell and the value of the field there, exact and rounded once.
+  answerAt(cell, point) {
+    const nodes = Array.from(this.cells.subarray(this.corners * cell, this.corners * (cell + 1)));
+    const exact = exactWeights(nodes.map((v) => Array.from(this.node(v))), point);
+    if (!exact) return null;
+    const { numerators, denominator } = exact, of = this.choice;
+    const values = !of ? [] : of.ofCells ? [of.at(cell)] : nodes.map((v) => of.at(v));
+    let value = of && of.ofCells ? values[0] : NaN;
+    if (of && !of.ofCells && values.every(Number.isFinite)) {
+      const { all, exponent } = integers(values);
+      value = nearest(numerators.reduce((sum, n, i) => sum + n * all[i], 0n), denominator, exponent);
+    }
+    return { weights: numerators.map((n) => nearest(n, denominator)), value };
   }
 
   /// Where on the window a point of the mesh is drawn.
@@ -420,9 +425,12 @@ document.head.append(Object.assign(document.createElement("style"), { textConten
 .turning .stage{position:relative;overflow:hidden}.turning .stage span{position:absolute;pointer-events:none;font-weight:bold;
  transform:translate(-50%,-50%);padding:0 5px;border-radius:9px;background:#0072b2;color:#fff;font-size:12px}
 .turning .stage .bad{background:#c8102e}
-.turning canvas{display:block;touch-action:none;outline:none}
+.turning canvas{display:block;width:100%;height:auto;touch-action:none;outline:none}
 .turning .bar div{height:14px;border-radius:2px}.turning .bar p{display:flex;justify-content:space-between;margin:2px 0}
 .turning .bar{max-width:420px;margin:6px 0}.turning .said{display:block;min-height:76px;overflow-wrap:anywhere}
 .turning .said p{margin:2px 0}
 ` }));
-window.viewMesh = (figure, buffer) => (figure.viewer = new Viewer(figure, buffer));
+window.viewMesh = (figure, buffer) => {
+  // Without WebGL the still picture stays.
+  if (document.createElement("canvas").getContext("webgl2")) figure.viewer = new Viewer(figure, buffer);
+};

@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <bit>
 #include <boost/multiprecision/gmp.hpp>
-#include <limits>
 #include <tuple>
 
 #include "barycert/environment.hpp"

@@ -10,15 +10,13 @@
 namespace barycert::index {
 
 Box box_of(int d, const double* const* points, int count) {
-    Box box{{0, 0, 0}, {0, 0, 0}};
-    for (int k = 0; k < d; ++k) {
-        const auto axis = static_cast<std::size_t>(k);
-        box.low[axis] = box.high[axis] = points[0][k];
-        for (int i = 1; i < count; ++i) {
-            box.low[axis] = std::min(box.low[axis], points[i][k]);
-            box.high[axis] = std::max(box.high[axis], points[i][k]);
-        }
-    }
+    const auto at = [&](int i) {
+        std::array<double, 3> x{};
+        for (int k = 0; k < d; ++k) x[static_cast<std::size_t>(k)] = points[i][k];
+        return Box{x, x};
+    };
+    Box box = at(0);
+    for (int i = 1; i < count; ++i) box.add(at(i));
     return box;
 }
 

@@ -12,7 +12,6 @@
 #pragma once
 
 #include <optional>
-#include <span>
 
 #include "barycert/index/box_tree.hpp"
 #include "barycert/mesh.hpp"

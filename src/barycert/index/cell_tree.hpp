@@ -105,7 +105,7 @@ public:
 
     using TakePairs = std::function<void(std::span<FacetPair>)>;
     /// take() for all pairs of boxes that meet, the lower number first, in the group g of the lowest level: some at a
-    /// time, in an order that depends on the boxes alone (box_lanes.cpp).
+    /// time, in an order that depends on the boxes alone (lanes.cpp).
     void for_pairs(std::size_t g, const TakePairs& take) const;
 
 private:

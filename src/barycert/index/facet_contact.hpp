@@ -1,9 +1,6 @@
 /// Do two boundary facets meet where they must not? Exactly, by signs of orientations alone.
 #pragma once
 
-#include <array>
-#include <span>
-
 #include "barycert/mesh.hpp"
 
 namespace barycert::index {

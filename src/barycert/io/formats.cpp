@@ -12,8 +12,8 @@ namespace barycert::io {
 
 namespace fs = std::filesystem;
 
-void cut_fields(std::string_view line, std::string_view blanks, std::string_view separators,
-                std::vector<std::string_view>& fields) {
+std::vector<std::string_view> cut_fields(std::string_view line, std::string_view blanks, std::string_view separators) {
+    std::vector<std::string_view> fields;
     const auto is_one = [&](std::size_t i, std::string_view of) {
         return i < line.size() && of.find(line[i]) != std::string_view::npos;
     };
@@ -21,7 +21,6 @@ void cut_fields(std::string_view line, std::string_view blanks, std::string_view
     const auto skip_blanks = [&] {
         while (is_one(i, blanks)) ++i;
     };
-    fields.clear();
     bool separated = false;
     for (skip_blanks(); i < line.size(); skip_blanks()) {
         const std::size_t begin = i;
@@ -32,6 +31,7 @@ void cut_fields(std::string_view line, std::string_view blanks, std::string_view
         if (separated) ++i;
     }
     if (separated) fields.push_back(line.substr(line.size()));
+    return fields;
 }
 
 std::string lower(std::string_view text) {

@@ -51,8 +51,7 @@ Status status_of(const F& f) try {
 }
 
 /// The fields of a line, parted by blanks or a separator with blanks around it; empty where it has no neighbour.
-void cut_fields(std::string_view line, std::string_view blanks, std::string_view separators,
-                std::vector<std::string_view>& fields);
+std::vector<std::string_view> cut_fields(std::string_view line, std::string_view blanks, std::string_view separators);
 
 /// The line of a text in which `at` lies, from 1.
 inline std::size_t line_of(std::string_view text, const char* at) {

@@ -71,8 +71,7 @@ bool is_flat_poly(std::string_view head) {
 
 /// Three counts on the first line.
 bool is_freefem(std::string_view head) {
-    std::vector<std::string_view> words;
-    cut_fields(head.substr(0, head.find('\n')), " \r", "", words);
+    const std::vector<std::string_view> words = cut_fields(head.substr(0, head.find('\n')), " \r", "");
     return words.size() == 3 && std::ranges::all_of(words, [](std::string_view word) {
                return word.find_first_not_of("0123456789") == std::string_view::npos;
            });

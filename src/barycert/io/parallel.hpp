@@ -7,7 +7,6 @@
 #include "barycert/base/arena.hpp"
 #include "barycert/base/large_pages.hpp"
 #include "barycert/environment.hpp"
-#include "barycert/mesh/part.hpp"
 
 namespace barycert::io {
 
@@ -81,14 +80,6 @@ template <class T>
 void grow(std::vector<T>& values, std::size_t count) {
     make_room(values, count);
     values.resize(values.size() + count);
-}
-
-/// Leaves those rows, which do not descend, and no others; a row may be there several times.
-template <class T>
-void keep_rows(std::vector<T>& values, std::size_t components, const std::vector<std::int32_t>& rows) {
-    std::vector<T> kept;
-    mesh::append_rows_of(values, components, rows, kept);
-    values = std::move(kept);
 }
 
 }  // namespace barycert::io

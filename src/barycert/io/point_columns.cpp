@@ -1,10 +1,8 @@
 #include "barycert/io/streams.hpp"
 
 #include <set>
-#include <span>
 
 #include "barycert/base/nearest_name.hpp"
-#include "barycert/io/formats.hpp"
 
 namespace barycert::io {
 namespace {
@@ -160,8 +158,7 @@ std::vector<std::string> parts_of(const std::vector<std::string>& texts, std::si
     if (texts.size() == count) return texts;
     std::vector<std::string> parts;
     for (const std::string& text : texts) {
-        std::vector<std::string_view> fields;
-        cut_fields(text, "", ",", fields);
+        std::vector<std::string_view> fields = cut_fields(text, "", ",");
         if (text.empty()) fields.emplace_back();
         parts.insert(parts.end(), fields.begin(), fields.end());
     }

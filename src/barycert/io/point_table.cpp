@@ -1,7 +1,6 @@
 #include <cmath>
 
 #include "barycert/base/finite.hpp"
-#include "barycert/io/formats.hpp"
 #include "barycert/io/streams.hpp"
 
 namespace barycert::io {
@@ -115,9 +114,8 @@ Source points_of_table(PointTable table, const std::string& file, int dimension,
     for (std::size_t i = 0; chosen.zero && i < count; ++i) {
         const double z = number(places[*chosen.zero], i);
         if (z != 0 && base::all_finite({&points[d * i], d}))
-            throw Exception(off_plane(file, 0,
-                                      (table.of_nodes ? "node " : "point ") + std::to_string(i) + ", counted from 0",
-                                      base::shortest(z)));
+            refuse_off_plane(file, (table.of_nodes ? "node " : "point ") + std::to_string(i) + ", counted from 0",
+                             base::shortest(z));
     }
     std::vector<Column> columns;
     for (PointColumns::Kept& kept : chosen.kept) {

@@ -1,10 +1,8 @@
 /// Rows of numbers on the way to a file, as text or binary.
 #pragma once
 
-#include <array>
 #include <charconv>
 #include <cstring>
-#include <span>
 
 #include "barycert/base/output_file.hpp"
 #include "barycert/mesh.hpp"

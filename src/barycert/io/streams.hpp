@@ -1,11 +1,8 @@
 /// What sources of points with carried columns have alike, and sinks of rows. Errors are thrown as Exceptions.
 #pragma once
 
-#include <algorithm>
-
 #include "barycert/base/output_file.hpp"
-#include "barycert/base/text.hpp"
-#include "barycert/io.hpp"
+#include "barycert/io/formats.hpp"
 #include "barycert/io/parallel.hpp"
 #include "barycert/mesh/columns.hpp"
 
@@ -59,14 +56,10 @@ PointColumns choose_columns(const TableColumns& all, int dimension, const PointO
 
 inline constexpr const char* or_nan_for_it = ", or take NaN for its values: options.nonfinite_points nan";
 
-/// A z that is not 0 beside a mesh in the plane. `row`: of which point, or empty.
-inline Error off_plane(const std::string& file, std::size_t line, const std::string& row, const std::string& found) {
-    return {"a point off the plane z = 0" + (row.empty() ? row : ": " + row),
-            file,
-            line,
-            "z = 0, for the mesh is 2D",
-            found,
-            "options.columns x,y leaves z out of account"};
+/// Of a z that is not 0 beside a mesh in the plane. `row`: of which point, or empty.
+[[noreturn]] inline void refuse_off_plane(const std::string& file, const std::string& row, const std::string& found) {
+    refuse_file(file, "a point off the plane z = 0" + (row.empty() ? row : ": " + row), "z = 0, for the mesh is 2D",
+                found, "options.columns x,y leaves z out of account");
 }
 
 /// "a", "b", ...: at most 8.

@@ -1,6 +1,5 @@
 #include <set>
 
-#include "barycert/io/formats.hpp"
 #include "barycert/io/streams.hpp"
 #include "barycert/io/vtk/out_file.hpp"
 

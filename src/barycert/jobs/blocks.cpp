@@ -1,6 +1,5 @@
 #include <tbb/parallel_pipeline.h>
 
-#include <algorithm>
 #include <atomic>
 #include <exception>
 

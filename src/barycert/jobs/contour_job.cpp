@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "barycert/base/arena.hpp"
@@ -76,36 +75,21 @@ void set_range(const Mesh& mesh, At at, ContourReport& report) {
 
 constexpr std::int64_t max_pixels = std::int64_t{1} << 27;
 
-double largest(const Vector& a) {
-    return std::max({std::fabs(a[0]), std::fabs(a[1]), std::fabs(a[2])});
-}
-
-Vector times(double s, const Vector& a) {
-    return {s * a[0], s * a[1], s * a[2]};
-}
-
-/// Of length 1 up to rounding. Precondition: not zero. Scaled first, so that squares neither over- nor underflow.
-Vector normalised(const Vector& a) {
-    const double max = largest(a);
-    const Vector b{a[0] / max, a[1] / max, a[2] / max};
-    return times(1 / std::sqrt(dot(b, b)), b);
-}
-
 /// Axes of the picture, to the right and up, and the point of the plane nearest to the origin.
 struct Frame {
     Vector right, up, foot;
 
     explicit Frame(const Plane& plane) {
-        const Vector n = normalised(plane.normal);
+        const Vector n = base::unit(plane.normal);
         const bool level = n[0] == 0 && n[1] == 0;
         const Vector vertical = level ? Vector{0, 1, 0} : Vector{0, 0, 1};
         const double along = dot(vertical, n);
-        up = normalised({vertical[0] - along * n[0], vertical[1] - along * n[1], vertical[2] - along * n[2]});
+        up = base::unit({vertical[0] - along * n[0], vertical[1] - along * n[1], vertical[2] - along * n[2]});
         right = cross(up, n);
-        // offset / |normal|, without squares of the normal as it is.
-        const double max = largest(plane.normal);
-        const Vector scaled = times(1 / max, plane.normal);
-        foot = times(plane.offset / max / std::sqrt(dot(scaled, scaled)), n);
+        // offset / |normal|, of halves, for the length may be too large a number.
+        const Vector& m = plane.normal;
+        const double distance = 0.5 * plane.offset / dot({0.5 * m[0], 0.5 * m[1], 0.5 * m[2]}, n);
+        foot = {distance * n[0], distance * n[1], distance * n[2]};
         for (Vector* const v : {&right, &up, &foot}) {
             for (double& x : *v) x += 0.0;  // no -0
         }
@@ -300,7 +284,7 @@ private:
         tell_stage(job_, "drawing");
         jobs::MeshFigure figure(mesh_, show_, job_.field, job_.threads, report_.notes);
         figure.add_section(std::move(section), frame.right, frame.up);
-        write_figure(job_.output, figure.figure(options), &report_.drawn).value();
+        report_.drawn = figure.write(job_.output, options);
         if (std::isnan(report_.drawn.low)) refuse_empty(pixels);
         report_.view = options.window;
         report_.colours = job_.field;
@@ -346,14 +330,12 @@ private:
                    shortest(*job_.value), "choose another value");
         Stopwatch watch;
         tell_stage(job_, "drawing");
-        FigureOptions options = job_.figure;
-        if (options.bar_title.empty()) options.bar_title = job_.colours;
         jobs::MeshFigure figure(mesh_, show_, job_.colours, job_.threads, report_.notes);
         figure.add(std::move(surface));
         if (job_.outline) figure.add_outline();
-        report_.view = options.size;
+        report_.view = job_.figure.size;
         report_.colours = job_.colours;
-        write_figure(job_.output, figure.figure(options), &report_.drawn).value();
+        report_.drawn = figure.write(job_.output, job_.figure);
         report_.seconds.sample = watch.lap();
     }
 

@@ -1,6 +1,5 @@
 #include "barycert/jobs/field_files.hpp"
 
-#include <algorithm>
 #include <filesystem>
 
 #include "barycert/base/nearest_name.hpp"

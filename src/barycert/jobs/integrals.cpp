@@ -1,6 +1,5 @@
 #include "barycert/jobs/integrals.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <tuple>
 

@@ -2,19 +2,16 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
-#include <map>
 #include <set>
 
 #include "barycert/base/strict_math.hpp"
 #include "barycert/base/vectors.hpp"
+#include "barycert/io/formats.hpp"
 #include "barycert/jobs/field_files.hpp"
 #include "barycert/jobs/job_files.hpp"
 #include "barycert/mesh/part.hpp"
 #include "barycert/mesh/pulling.hpp"
-#include "barycert/predicates.hpp"
-#include "barycert/raster.hpp"
 #include "barycert/surface/edges.hpp"
 
 namespace barycert::jobs {
@@ -173,6 +170,17 @@ draw::PageScene MeshFigure::page(const FigureOptions& options) const {
     add(scene.point_fields, mesh_->point_fields);
     add(scene.cell_fields, mesh_->cell_fields);
     return scene;
+}
+
+FigureCounts MeshFigure::write(const std::string& path, FigureOptions options) const {
+    if (options.bar_title.empty()) options.bar_title = colours_.empty() ? show_.iso_field : colours_;
+    FigureCounts counts;
+    if (io::has_suffix(path, ".html")) {
+        draw::write_page(path, page(options), counts).value();
+    } else {
+        write_figure(path, figure(options), &counts).value();
+    }
+    return counts;
 }
 
 void MeshFigure::add_mesh() {

@@ -27,10 +27,11 @@ public:
         all.options = options;
         return all;
     }
-    /// The same for a page; refused what pages have not.
-    draw::PageScene page(const FigureOptions& options) const;
+    /// As write_figure takes it, or a page that turns, .html; refused what pages have not.
+    FigureCounts write(const std::string& path, FigureOptions options) const;
 
 private:
+    draw::PageScene page(const FigureOptions& options) const;
     void choose_cells();
     CutOptions carried();
     void add_cut_open(const Surface& surface);

@@ -1,14 +1,11 @@
 #include "barycert/jobs/profile.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "barycert/base/range.hpp"
 #include "barycert/base/strict_math.hpp"
 #include "barycert/draw/axes.hpp"
 #include "barycert/draw/files.hpp"
-#include "barycert/jobs/job_files.hpp"
 
 namespace barycert::jobs {
 namespace {

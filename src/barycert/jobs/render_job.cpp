@@ -1,6 +1,5 @@
 // Pictures of scenes and of meshes, and small ones that show what rasterising does.
 
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -156,10 +155,6 @@ Scene small_picture(const RenderJob& job) {
     return scene;
 }
 
-bool is_page(const RenderJob& job) {
-    return io::has_suffix(job.output, ".html");
-}
-
 void draw_mesh(const RenderJob& job, RenderReport& report) {
     const jobs::ThreadLimit limit(job.threads);
     const Mesh mesh = jobs::open_mesh_with_fields(job, job.threads, report);
@@ -175,18 +170,14 @@ void draw_mesh(const RenderJob& job, RenderReport& report) {
         jobs::tell_stage(job, "drawing");
         figure.add_mesh();
         FigureOptions options = job.figure;
-        if (options.bar_title.empty()) options.bar_title = job.field.empty() ? job.show.iso_field : job.field;
-        FigureCounts counts;
-        if (is_page(job)) {
-            if (options.title.empty()) options.title = std::filesystem::path(job.mesh).filename().string();
-            draw::write_page(job.output, figure.page(options), counts).value();
-        } else {
-            write_figure(job.output, figure.figure(options), &counts).value();
-        }
+        if (io::has_suffix(job.output, ".html") && options.title.empty())
+            options.title = std::filesystem::path(job.mesh).filename().string();
+        const FigureCounts counts = figure.write(job.output, options);
         report.size = counts.size;
         report.counts = counts.render;
         if (!std::isnan(counts.low) || counts.without_value != 0)
-            report.colours = {options.bar_title, counts.low, counts.high, counts.without_value};
+            report.colours = {job.field.empty() ? job.show.iso_field : job.field, counts.low, counts.high,
+                              counts.without_value};
     } catch (const Exception& e) {
         Error error = e.error();
         if (error.file.empty()) error.file = job.mesh;
@@ -240,8 +231,8 @@ std::vector<base::NamedFile> inputs_of(const RenderJob& job) {
 
 Result<RenderReport> render_files(const RenderJob& job) try {
     const ExactEnvironment environment;
-    const bool mesh = job.picture == PictureKind::mesh;
-    if (mesh ? !is_figure_name(job.output) && !is_page(job) : !job.output.ends_with(".png"))
+    const bool mesh = job.picture == PictureKind::mesh, page = io::has_suffix(job.output, ".html");
+    if (mesh ? !is_figure_name(job.output) && !page : !job.output.ends_with(".png"))
         jobs::refuse_output(job.output, mesh ? ".png, .svg, .pdf or .html" : ".png");
     jobs::check_outputs(job, inputs_of(job), {{"job.output", job.output}});
     jobs::Stopwatch time;

@@ -1,7 +1,6 @@
 // Fields on a regular grid, or at the nodes of another mesh.
 
 #include <fmt/format.h>
-#include <algorithm>
 
 #include "barycert/base/finite.hpp"
 #include "barycert/base/output_file.hpp"
@@ -90,7 +89,7 @@ Sink open_array(const std::string& path, const Grid& grid, std::size_t columns) 
 
 /// A picture of one column. It is kept in memory: its colours depend on all of it.
 Sink open_picture(const ResampleJob& a, const std::string& path, const std::vector<std::string>& columns,
-                  const Grid& grid, std::optional<GridCounts>& counts) {
+                  const Grid& grid, std::optional<FigureCounts>& counts) {
     // The two axes of a grid in a plane.
     std::vector<std::size_t> axes;
     for (std::size_t k = 0; k < static_cast<std::size_t>(grid.dimension); ++k) {
@@ -133,10 +132,7 @@ Sink open_picture(const ResampleJob& a, const std::string& path, const std::vect
     return jobs::sink_of(write, [=, &counts]() mutable {
         picture.values = *values;
         picture.valid = *valid;
-        FigureCounts told;
-        const Status written = write_figure(path, {.dimension = 2, .grid = picture, .options = options}, &told);
-        counts = told.grid;
-        return written;
+        return write_figure(path, {.dimension = 2, .grid = picture, .options = options}, &counts.emplace());
     });
 }
 
@@ -170,7 +166,7 @@ std::array<double, 3> point_of(const Grid& grid, std::uint64_t i) {
 /// A sink of the blocks of a grid, in order, whose views have no points: `path`, by its suffix. `picture` gets, with
 /// the commit, what became of values. Refused: a format that cannot hold fields or grid.
 Sink open_grid_sink(const ResampleJob& job, const std::string& path, const TableFormat& format, const Grid& grid,
-                    std::optional<GridCounts>& picture) {
+                    std::optional<FigureCounts>& picture) {
     const std::vector<std::string> columns = format.columns();
     const bool png = is_figure_name(path), array = io::has_suffix(path, ".npy");
     if (!format.carried.empty() && (png || array))

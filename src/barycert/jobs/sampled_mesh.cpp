@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "barycert/base/arena.hpp"
 #include "barycert/base/finite.hpp"
 #include "barycert/environment.hpp"

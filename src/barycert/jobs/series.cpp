@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/jobs/field_files.hpp"

@@ -1,14 +1,11 @@
 /// One point against one cell, in floating point with a bound, and exactly.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
-#include <cstddef>
 
 #include "barycert/core/numerators-inl.hpp"
 #include "barycert/locate/names.hpp"
 #include "barycert/predicates.hpp"
-#include "barycert/simplex.hpp"
 
 namespace barycert::locate {
 

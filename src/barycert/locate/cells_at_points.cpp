@@ -1,11 +1,9 @@
 #include "barycert/locate/cells_at_points.hpp"
 
-#include <algorithm>
 #include <atomic>
 #include <bit>
 
 #include "barycert/base/arena.hpp"
-#include "barycert/index/buffer.hpp"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "barycert/locate/cells_at_points.cpp"

@@ -1,8 +1,7 @@
-#include "barycert/locate/contested_cells.hpp"
+#include "barycert/locate/locator_data.hpp"
 
 #include "barycert/index/overlap.hpp"
 #include "barycert/locate/cell_signs.hpp"
-#include "barycert/locate/lanes.hpp"
 
 namespace barycert::locate {
 namespace {

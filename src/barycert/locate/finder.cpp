@@ -1,7 +1,5 @@
 #include "barycert/locate/finder.hpp"
 
-#include "barycert/base/random.hpp"
-
 namespace barycert::locate {
 
 void Finder::find(const PointRecord* points, std::size_t count, Place* owner, Feature* feature,

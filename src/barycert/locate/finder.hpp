@@ -1,8 +1,6 @@
 /// Points to owners, a chunk at a time.
 #pragma once
 
-#include <numeric>
-
 #include "barycert/locate/cell_signs.hpp"
 #include "barycert/locate/locator_data.hpp"
 

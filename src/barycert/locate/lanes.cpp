@@ -1,8 +1,5 @@
 #include "barycert/locate/lanes.hpp"
 
-#include <algorithm>
-#include <bit>
-
 #include "barycert/locate/occupancy.hpp"
 
 #undef HWY_TARGET_INCLUDE

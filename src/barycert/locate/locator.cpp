@@ -3,10 +3,8 @@
 #include "barycert/mesh/consistency.hpp"
 
 namespace barycert {
-Locator::Locator(std::unique_ptr<locate::LocatorData> data) : data_(std::move(data)) {}
-Locator::Locator(Locator&&) noexcept = default;
-Locator& Locator::operator=(Locator&&) noexcept = default;
-Locator::~Locator() = default;
+Locator::Locator(std::unique_ptr<locate::LocatorData> data)
+    : data_(data.release(), [](locate::LocatorData* d) { delete d; }) {}
 
 Result<Locator> Locator::build(const Mesh& mesh, const BuildOptions& options) {
     const ExactEnvironment environment;

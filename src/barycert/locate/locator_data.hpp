@@ -1,17 +1,140 @@
 /// All that a Locator keeps.
 #pragma once
 
-#include <cmath>
-
+#include "barycert/base/lists.hpp"
 #include "barycert/core/grid_lanes.hpp"
-#include "barycert/locate/contested_cells.hpp"
+#include "barycert/index/proof.hpp"
 #include "barycert/locate/mapped/mapped_cells.hpp"
 #include "barycert/locate/nearest.hpp"
-#include "barycert/locate/node_cells.hpp"
 #include "barycert/locate/occupancy.hpp"
-#include "barycert/locate/sorted_points.hpp"
 
 namespace barycert::locate {
+
+/// The cells at each node, to name all cells around a vertex or edge.
+class NodeCells {
+public:
+    /// Without the cells `degenerate`, ascending.
+    NodeCells(const CellIndex& index, std::span<const Place> degenerate) {
+        std::vector<Place> place(index.cell_count());
+        for (std::size_t c = 0; c < place.size(); ++c)
+            place[static_cast<std::size_t>(index.original[c])] = static_cast<Place>(c);
+        std::erase_if(place, [&](Place c) { return std::ranges::binary_search(degenerate, c); });
+        cells_ = {index.original_node.size(), [&](const auto& add) {
+                      for (const Place c : place) {
+                          for (std::size_t i = 0; i < index.corners(); ++i)
+                              add(static_cast<std::size_t>(index.cells[c].node[i]), c);
+                      }
+                  }};
+    }
+
+    /// Those of a node, by ascending cell of the mesh.
+    std::span<const Place> of(Place node) const { return cells_[static_cast<std::size_t>(node)]; }
+    std::size_t bytes() const { return cells_.bytes(); }
+
+    /// The lowest cell of the mesh that has the vertex, edge or face on which a point with these signs lies. In a
+    /// simplicial complex it is the lowest that holds the point. Precondition: the signs are those of a point in the
+    /// closed cell, which is not degenerate.
+    Place lowest_around(const CellIndex& index, Place cell, WeightSigns signs) const {
+        const CellRecord& record = index.cells[cell];
+        std::array<Place, 4> support;
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < index.corners(); ++i) {
+            if (signs.sign(static_cast<int>(i)) != Sign::zero) support[count++] = record.node[i];
+        }
+        return *std::ranges::find_if(of(support[0]), [&](Place candidate) {
+            const auto& nodes = index.cells[candidate].node;
+            return std::all_of(support.begin() + 1, support.begin() + static_cast<std::ptrdiff_t>(count),
+                               [&](Place node) { return std::ranges::find(nodes, node) != nodes.end(); });
+        });
+    }
+
+private:
+    base::Lists<Place> cells_;
+};
+
+/// The cells that others may meet beside common faces (doc/theorem.md), to find who else holds a point.
+class ContestedCells {
+public:
+    /// The contested cells that are not degenerate. `index` must stay.
+    ContestedCells(const CellIndex& index, const Proof& proof, std::span<const Place> degenerate);
+
+    /// A list costs about as much as asking the tree for so many points.
+    static constexpr std::size_t cost_of_list = 4;
+
+    /// Makes the lists. Before threads share the points: results are the same with them, counts of tests are not.
+    void prepare() const {
+        lists_.get([this] { return make_lists(); });
+    }
+    /// One more of points that come one by one.
+    void prepare_for_one_more() const {
+        if (cost_of_list * asked_.fetch_add(1, std::memory_order_relaxed) > cells_.size()) prepare();
+    }
+
+    /// For points[which[i]], i < count, each inside the contested cell owner[which[i]], certainly not on its faces:
+    /// sets the owner and the feature. Others that hold the point are contested, for in one that is not, every cell
+    /// that holds a point has the face on which it lies.
+    void find_owners(const PointRecord* points, const std::uint32_t* which, std::size_t count, Place* owner,
+                     Feature* feature, TierCounts& tests) const;
+
+    std::size_t bytes() const { return cells_.size() * sizeof(Place) + tree_.bytes() + bytes_of(lists_); }
+
+private:
+    /// For cells_[i], those of lower number in the mesh that may overlap it. Empty if there would be too many.
+    using Lists = base::Lists<Place>;
+    Lists make_lists() const;
+
+    const CellIndex& index_;
+    std::vector<Place> cells_;  ///< ascending
+    BoxGroups tree_;            ///< of their boxes
+    Lazy<Lists> lists_;
+    mutable std::atomic<std::size_t> asked_ = 0;  ///< one by one
+};
+
+/// A block of points in the order of the bins, near ones side by side. Keeps its memory from block to block.
+class SortedPoints {
+public:
+    /// d coordinates a point. Sorted by the first bits of their bins alone: what lies together in one of those fits the
+    /// nearest caches. Points that find_bins knows to be outside are left out. Returns whether all coordinates are
+    /// finite. The points must stay where they are.
+    bool sort(const CellIndex& index, const Occupancy* occupancy, std::span<const double> points);
+
+    /// How many are left, and how many not.
+    std::size_t size() const { return size_; }
+    std::size_t left_out() const { return count_ - size_; }
+    /// Point i in the order of the caller.
+    const double* point(std::size_t i) const { return points_.data() + d_ * i; }
+    PointRecord record(std::size_t i, std::size_t number) const {
+        const double* const from = point(i);
+        return {{from[0], from[1], d_ == 3 ? from[d_ - 1] : 0}, static_cast<std::uint32_t>(number)};
+    }
+    struct Entry {
+        std::uint32_t number;  ///< in the order of the caller
+        std::uint32_t bin;
+    };
+    /// By place in this order.
+    const Entry* entries() const { return order_.data(); }
+    /// Those of places [first, first + count) in this order. The number of each is its place.
+    void copy(std::size_t first, std::size_t count, PointRecord* to) const;
+
+    /// use(i, place of point i in this order) for every point, in the order of the caller; the place of a point left
+    /// out is size(). Results are written in this order and read in that one: reading at random can be asked for ahead,
+    /// by ahead(place); writing cannot.
+    template <class Ahead, class Use>
+    void for_each_in_callers_order(Ahead ahead, Use use) const {
+        constexpr std::size_t distance = 16;
+        for (std::size_t i = 0; i < count_; ++i) {
+            if (i + distance < count_) ahead(place_[i + distance]);
+            use(i, place_[i]);
+        }
+    }
+
+private:
+    std::span<const double> points_;
+    std::size_t d_ = 3, count_ = 0, size_ = 0;
+    Buffer<Entry> order_;
+    std::vector<std::uint32_t> next_;
+    Buffer<std::uint32_t> place_;  ///< of each point, in the order of the caller; before that, its bin
+};
 
 /// Things that are dear to make, kept for the next user.
 template <class T>

@@ -1,12 +1,10 @@
 #include "barycert/locate/occupancy.hpp"
 
-#include <algorithm>
 #include <atomic>
 #include <cmath>
 
 #include "barycert/base/arena.hpp"
 #include "barycert/core/numerators-inl.hpp"
-#include "barycert/index/bins.hpp"
 
 namespace barycert::locate {
 namespace {

@@ -1,6 +1,4 @@
-#include "barycert/locate/sorted_points.hpp"
-
-#include <numeric>
+#include "barycert/locate/locator_data.hpp"
 
 namespace barycert::locate {
 

@@ -1,9 +1,6 @@
 /// Which cells share a facet: edges between triangles, faces between tetrahedra.
 #pragma once
 
-#include <array>
-#include <span>
-
 #include "barycert/mesh.hpp"
 
 namespace barycert::mesh {

@@ -1,7 +1,5 @@
 #include "barycert/mesh/cell_maps.hpp"
 
-#include <algorithm>
-
 #include "barycert/mesh/mid_edges.hpp"
 #include "barycert/mesh/pulling.hpp"
 
@@ -50,12 +48,12 @@ CellMaps::Nodes CellMaps::nodes(std::size_t whole) const {
 iso::Places CellMaps::places(std::size_t whole) const {
     iso::Places places;
     const Nodes nodes = this->nodes(whole);
-    for (std::size_t i = 0; i < nodes.count; ++i) places.at[i] = at(nodes.at[i]);
+    for (std::size_t i = 0; i < nodes.count; ++i) places.at[i] = mesh_.point(nodes.at[i]);
     const auto edges = edges_of(mesh_.dimension);
     for (std::size_t e = 0; !has_shapes() && e < edges.size(); ++e) {
         if ((curved_edges(whole) >> e & 1U) != 0) continue;
-        places.at[mesh_.corners() + e] = at(nodes.at[edges[e][0]]);
-        places.other[mesh_.corners() + e] = at(nodes.at[edges[e][1]]);
+        places.at[mesh_.corners() + e] = mesh_.point(nodes.at[edges[e][0]]);
+        places.other[mesh_.corners() + e] = mesh_.point(nodes.at[edges[e][1]]);
     }
     return places;
 }

@@ -1,8 +1,6 @@
 /// Which cells are images of reference cells, and by which nodes.
 #pragma once
 
-#include <span>
-
 #include "barycert/core/isoparametric/inverse.hpp"
 #include "barycert/mesh.hpp"
 
@@ -31,9 +29,6 @@ public:
 
 private:
     bool has_shapes() const { return !mesh_.shapes.types.empty(); }
-    const double* at(Mesh::Index node) const {
-        return &mesh_.points[static_cast<std::size_t>(node) * static_cast<std::size_t>(mesh_.dimension)];
-    }
 
     const Mesh& mesh_;
     bool products_, curves_;

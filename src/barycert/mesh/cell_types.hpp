@@ -1,9 +1,6 @@
 /// Types of cells by VTK's numbers (vtkCellType.h), and how cells of any of them become those of a mesh.
 #pragma once
 
-#include <span>
-#include <string>
-
 #include "barycert/mesh/pulling.hpp"
 
 namespace barycert::mesh {

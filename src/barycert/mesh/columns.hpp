@@ -1,8 +1,6 @@
 /// Columns that are carried through, value by value.
 #pragma once
 
-#include <span>
-
 #include "barycert/mesh.hpp"
 
 namespace barycert::mesh {

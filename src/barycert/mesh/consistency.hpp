@@ -1,8 +1,6 @@
 /// Whether a mesh in memory is whole.
 #pragma once
 
-#include <span>
-
 #include "barycert/mesh.hpp"
 
 namespace barycert::mesh {

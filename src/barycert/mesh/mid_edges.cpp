@@ -32,13 +32,12 @@ std::span<const Sequence> sequences_of(int dimension) {
 std::size_t nearest_edge(const Mesh& mesh, const Mesh::Index* corners, Mesh::Index node, std::span<const Edge> edges) {
     const auto dimension = static_cast<std::size_t>(mesh.dimension);
     double largest = 0;
-    const auto point = [&](Mesh::Index at) { return &mesh.points[static_cast<std::size_t>(at) * dimension]; };
     for (std::size_t i = 0; i <= dimension + 1; ++i) {
-        const double* const p = point(i <= dimension ? corners[i] : node);
+        const double* const p = mesh.point(i <= dimension ? corners[i] : node);
         for (std::size_t axis = 0; axis < dimension; ++axis) largest = std::max(largest, std::fabs(p[axis]));
     }
     const double scale = largest > 0x1p1000 ? 0.25 : 1;  // no sum below overflows, and no subnormal number is lost
-    const auto coordinate = [&](Mesh::Index at, std::size_t axis) { return point(at)[axis] * scale; };
+    const auto coordinate = [&](Mesh::Index at, std::size_t axis) { return mesh.point(at)[axis] * scale; };
     std::array<double, 6> squares{};
     std::array<double, 18> offsets{};
     double unit = std::numeric_limits<double>::infinity();

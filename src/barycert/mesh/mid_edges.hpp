@@ -1,9 +1,7 @@
 /// In which order a file lists the mid-edge nodes of its second-order cells.
 #pragma once
 
-#include <array>
 #include <optional>
-#include <span>
 
 #include "barycert/mesh.hpp"
 

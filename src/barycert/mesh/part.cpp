@@ -1,8 +1,6 @@
 #include "barycert/mesh/part.hpp"
 
-#include <array>
 #include <bit>
-#include <span>
 
 namespace barycert::mesh {
 

@@ -16,6 +16,14 @@ void append_rows_of(const std::vector<T>& whole, std::size_t size, const std::ve
     }
 }
 
+/// Leaves those rows and no others; a row may be there several times. An empty array stays so.
+template <class T>
+void keep_rows(std::vector<T>& values, std::size_t size, const std::vector<Mesh::Index>& rows) {
+    std::vector<T> kept;
+    if (!values.empty()) append_rows_of(values, size, rows, kept);
+    values = std::move(kept);
+}
+
 Field rows_of(const Field& whole, const std::vector<Mesh::Index>& rows);
 
 struct Part {

@@ -6,10 +6,7 @@
 /// depend on the cell; a face that has the cell's lowest node is cut from it, as it is the lowest of that face, too.
 #pragma once
 
-#include <array>
 #include <bit>
-#include <optional>
-#include <string_view>
 
 #include "barycert/mesh.hpp"
 #include "barycert/simplex.hpp"

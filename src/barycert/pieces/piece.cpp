@@ -55,24 +55,19 @@ void halve(std::vector<Box>::iterator begin, std::vector<Box>::iterator end, std
     halve(between, end, most - left, all);
 }
 
-std::span<const Mesh::Index> corners_of(const IndexedPiece& piece, Mesh::Index cell) {
-    const std::size_t n = piece.mesh.corners();
-    return {piece.mesh.cells.data() + n * static_cast<std::size_t>(cell), n};
-}
-
 // Sets point and weights from the nodes whose hull has the nearest point in it.
 void project_on(const IndexedPiece& piece, const Nearest& nearest, const double* x, Closest& found) {
     locate::NearFeature f;
     std::size_t count = 0;
     for (; count < 3 && nearest.nodes[count] >= 0; ++count)
-        piece.place(piece.node(nearest.nodes[count]), f.at[count].data());
+        piece.place(piece.mesh.point(nearest.nodes[count]), f.at[count].data());
     f.count = static_cast<int>(count);
     const std::array<double, 3> weights = locate::weights_of({x[0], x[1], x[2]}, f);
     found.point = f.at[0];
     std::array<double, 3> point{};
     if (count > 1 && point_from_weights(f.simplex(), f.vertices().data(), weights.data(), point.data()))
         found.point = point;
-    const std::span<const Mesh::Index> corners = corners_of(piece, found.cell);
+    const std::span<const Mesh::Index> corners = piece.mesh.corners_of(static_cast<std::size_t>(found.cell));
     for (std::size_t k = 0; k < count; ++k) {
         const auto at = std::find(corners.begin(), corners.end(), nearest.nodes[k]);
         if (at != corners.end()) found.weights[static_cast<std::size_t>(at - corners.begin())] = weights[k];
@@ -127,12 +122,12 @@ Box Piece::box_of(std::size_t whole) const {
         box.add({x, x});
     };
     const std::vector<Mesh::Index> nodes = nodes_of(whole);
-    for (const Mesh::Index i : nodes) add(node(i));
+    for (const Mesh::Index i : nodes) add(mesh.point(i));
     const bool simplex = mesh.shapes.count() == 0 || mesh::is_curved_simplex(mesh.shapes.types[whole]);
     const iso::Reference* const reference = iso::simplex_reference(mesh.dimension, nodes.size());
     if (!simplex || reference == nullptr) return box;
     iso::Places places;
-    std::transform(nodes.begin(), nodes.end(), places.at.begin(), [&](Mesh::Index i) { return node(i); });
+    std::transform(nodes.begin(), nodes.end(), places.at.begin(), [&](Mesh::Index i) { return mesh.point(i); });
     const std::array<double, 6> hull = iso::hull_box(*reference, places);
     add(hull.data());
     add(hull.data() + 3);
@@ -254,7 +249,8 @@ Mesh::Index IndexedPiece::owner(const double* x) const {
 std::array<double, 4> IndexedPiece::weights(Mesh::Index cell, const double* point) const {
     std::array<double, 12> vertices{};
     double* out = vertices.data();
-    for (const Mesh::Index vertex : corners_of(*this, cell)) out = std::copy_n(node(vertex), mesh.dimension, out);
+    for (const Mesh::Index vertex : mesh.corners_of(static_cast<std::size_t>(cell)))
+        out = std::copy_n(mesh.point(vertex), mesh.dimension, out);
     const Result<Weights> its = barycentric_weights(simplex(), vertices.data(), point);
     return its ? its->weights : std::array<double, 4>{};
 }

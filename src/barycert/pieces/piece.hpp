@@ -41,10 +41,6 @@ struct Piece {
         x[axes[2]] = plane;
         for (std::size_t a = 0; a < static_cast<std::size_t>(mesh.dimension); ++a) x[axes[a]] = point[a];
     }
-    /// Its coordinates, on the axes of the mesh.
-    const double* node(Mesh::Index i) const {
-        return mesh.points.data() + static_cast<std::size_t>(mesh.dimension) * static_cast<std::size_t>(i);
-    }
     /// Cells as users know them: the whole one of a part, its nodes in VTK's order, and a box that it lies in.
     std::size_t whole_of(Mesh::Index cell) const;
     std::vector<Mesh::Index> nodes_of(std::size_t whole) const;

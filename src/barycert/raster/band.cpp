@@ -1,7 +1,5 @@
 #include "barycert/raster/band.hpp"
 
-#include <algorithm>
-
 #include "barycert/base/strict_math.hpp"
 #include "barycert/perspective.hpp"
 #include "barycert/raster/fill_rows.hpp"

@@ -24,14 +24,8 @@ std::string text_of(std::span<const double> numbers) {
 
 /// The direction of v with length 1, whatever its length was; nothing if it is zero or not finite.
 std::optional<Vector3> direction(const Vector3& v) {
-    const double largest = std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])});
-    if (!base::all_finite(v) || largest == 0) return std::nullopt;
-    const int shift = -std::ilogb(largest);
-    Vector3 d;
-    for (std::size_t k = 0; k < 3; ++k) d[k] = std::scalbn(v[k], shift);
-    const double length = std::sqrt(dot(d, d));
-    for (double& x : d) x /= length;
-    return d;
+    if (!base::all_finite(v) || v == Vector3{}) return std::nullopt;
+    return base::unit(v);
 }
 
 /// (x / w + 1) * size / 2 = (x + w) * size / (2 w), rounded once.

@@ -98,10 +98,4 @@ void for_spans(const SortedTriangle& t, std::int32_t width, std::int32_t begin, 
     part(t.middle, t.end, t.vertex[1], t.vertex[2]);
 }
 
-/// Of all rows.
-template <class F>
-void for_spans(const SortedTriangle& t, std::int32_t width, F f) {
-    for_spans(t, width, t.begin, t.end, f);
-}
-
 }  // namespace barycert::raster

@@ -78,10 +78,10 @@ Status cover_triangle(RasterSize size, std::span<const double> vertices, std::ve
     const ExactEnvironment environment;
     if (Status s = check_raster_size(size); !s) return s;
     if (Status s = raster::check_vertices(vertices); !s) return s;
-    raster::for_spans(raster::SortedTriangle(vertices.data(), size.height), size.width,
-                      [&](std::int32_t row, std::int32_t begin, std::int32_t end) {
-                          spans.push_back({row, begin, end});
-                      });
+    const raster::SortedTriangle t(vertices.data(), size.height);
+    raster::for_spans(t, size.width, t.begin, t.end, [&](std::int32_t row, std::int32_t begin, std::int32_t end) {
+        spans.push_back({row, begin, end});
+    });
     return Done{};
 }
 
@@ -105,12 +105,13 @@ Result<std::size_t> fill_triangle(std::span<const double> vertices, std::span<co
     const raster::SortedTriangle t(vertices.data(), out.size.height);
     const auto fill = [&](auto rows) {
         std::size_t count = 0;
-        raster::for_spans(t, out.size.width, [&](std::int32_t j, std::int32_t first, std::int32_t last) {
-            const auto at = static_cast<std::size_t>(j) * static_cast<std::size_t>(out.size.width);
-            rows.fill(j, first, last,
-                      &out.data[(at + static_cast<std::size_t>(first)) * static_cast<std::size_t>(out.components)]);
-            count += static_cast<std::size_t>(last - first);
-        });
+        raster::for_spans(
+            t, out.size.width, t.begin, t.end, [&](std::int32_t j, std::int32_t first, std::int32_t last) {
+                const auto at = static_cast<std::size_t>(j) * static_cast<std::size_t>(out.size.width);
+                rows.fill(j, first, last,
+                          &out.data[(at + static_cast<std::size_t>(first)) * static_cast<std::size_t>(out.components)]);
+                count += static_cast<std::size_t>(last - first);
+            });
         return count;
     };
     return raster::with_rows(t, vertices.data(), values, out.components, options.method, options.rounding, fill);

@@ -7,6 +7,7 @@
 
 #include "barycert/base/arena.hpp"
 #include "barycert/base/lists.hpp"
+#include "barycert/core/exact_tier.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/raster/band.hpp"
 
@@ -26,14 +27,12 @@ public:
     Image run() {
         set_parts();
         const auto bands = static_cast<std::size_t>((height_ + rows_ - 1) / rows_);
-        const base::Lists<std::uint32_t> of_band(bands, [&](auto add) {
-            std::uint32_t all = 0;
-            for (const Parts& some : parts_)
-                for (const Part& part : some.all) add_to_bands(part, all++, add);
-        });
         std::vector<const Part*> all;
         for (const Parts& some : parts_)
             for (const Part& part : some.all) all.push_back(&part);
+        const base::Lists<std::uint32_t> of_band(bands, [&](auto add) {
+            for (std::size_t i = 0; i < all.size(); ++i) add_to_bands(*all[i], static_cast<std::uint32_t>(i), add);
+        });
         drawn_ = std::vector<std::atomic<bool>>(layers_.triangles.size() / 3);
         std::mutex mutex;
         base::parallel_for(bands, [&](std::size_t b) {
@@ -113,6 +112,20 @@ private:
 };
 
 }  // namespace
+
+std::vector<double> in_clip_space(std::span<const double> positions, const Matrix4& to_clip, Rounding rounding) {
+    std::vector<double> clip(positions.size());
+    base::parallel_for(clip.size(), std::size_t{1} << 16, [&](std::size_t begin, std::size_t end) {
+        const ExactEnvironment environment;
+        for (std::size_t i = begin; i != end; ++i) {
+            const double* const p = positions.data() + i / 4 * 4;
+            const double* const m = to_clip.m.data() + i % 4 * 4;
+            clip[i] = rounding == Rounding::correct ? core::exact_dot(m, p, 4)
+                                                    : m[0] * p[0] + m[1] * p[1] + m[2] * p[2] + m[3] * p[3];
+        }
+    });
+    return clip;
+}
 
 Image draw(const Layers& layers, RenderCounts& counts) {
     counts = {};

@@ -38,6 +38,9 @@ struct Layers {
     PixelValues* kept = nullptr;  ///< with one sample: the numbers at each pixel
 };
 
+/// The matrix times each position: x, y, z, w. Exact and rounded once, if that is asked for.
+std::vector<double> in_clip_space(std::span<const double> positions, const Matrix4& to_clip, Rounding rounding);
+
 /// Counts are of samples, in place of pixels. Precondition: sizes fit, and are valid.
 Image draw(const Layers& layers, RenderCounts& counts);
 

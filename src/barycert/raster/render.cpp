@@ -70,22 +70,6 @@ Status check(const Scene& s) {
     return check_choices(s);
 }
 
-Result<std::vector<double>> clip_positions(const Scene& s) {
-    std::vector<double> clip(s.positions.size());
-    for (std::size_t i = 0; i < clip.size(); i += 4) {
-        const double* const p = s.positions.data() + i;
-        for (std::size_t r = 0; r < 4; ++r) {
-            const double* const m = s.to_clip.m.data() + 4 * r;
-            clip[i + r] = s.rounding == Rounding::correct ? core::exact_dot(m, p, 4)
-                                                          : m[0] * p[0] + m[1] * p[1] + m[2] * p[2] + m[3] * p[3];
-            if (!std::isfinite(clip[i + r]))
-                return misfit("vertex " + std::to_string(i / 4), "coordinates that do not overflow in clip space",
-                              std::to_string(clip[i + r]));
-        }
-    }
-    return clip;
-}
-
 /// Numbers of a vertex or pixel from which its colour is made: the colour if there is one, u and v likewise.
 std::size_t attribute_count(const Scene& s) {
     return (s.colours.empty() ? 0U : 3U) + (s.texture_coordinates.empty() ? 0U : 2U);
@@ -118,12 +102,14 @@ Result<Image> render(const Scene& scene, RenderCounts* counts, PixelValues* attr
     if (Status good = raster::check(scene); !good) return good.error();
     if (attributes != nullptr && scene.samples != 1)
         return raster::misfit("attributes at pixels", "one sample a pixel", std::to_string(scene.samples));
-    const Result<std::vector<double>> clip = raster::clip_positions(scene);
-    if (!clip) return clip.error();
+    const std::vector<double> clip = raster::in_clip_space(scene.positions, scene.to_clip, scene.rounding);
+    if (const std::size_t i = base::first_not_finite(clip); i != clip.size())
+        return raster::misfit("vertex " + std::to_string(i / 4), "coordinates that do not overflow in clip space",
+                              std::to_string(clip[i]));
     raster::Layers layers{.size = scene.size,
                           .samples = scene.samples,
                           .background = scene.background,
-                          .clip = *clip,
+                          .clip = clip,
                           .triangles = scene.triangles,
                           .numbers = raster::attribute_count(scene),
                           .method = scene.method,

@@ -76,16 +76,16 @@ std::string steps_text(const SampleReport& s) {
     return text;
 }
 
-void tell_picture(Document& d, const GridCounts& n) {
+void tell_picture(Document& d, const FigureCounts& n) {
     const auto points = [](std::uint64_t count, const char* how) {
         return count == 0 ? "" : fmt::format("; {} {}", counted(count, "point"), how);
     };
-    d.figure("picture", record(MEMBERS(n, low, high, drawn, below, above)), "picture",
+    d.figure("picture", record(MEMBERS(n, low, high), MEMBERS(n.grid, drawn), MEMBERS(n, below, above)), "picture",
              std::isnan(n.low)
                  ? "nothing drawn: no point has a finite value"
                  : fmt::format("colours from {} to {}", base::shortest(n.low), base::shortest(n.high)) +
                        points(n.below, "below, drawn as the first") + points(n.above, "above, drawn as the last") +
-                       points(n.outside + n.not_finite, "without a value"));
+                       points(n.grid.outside + n.grid.not_finite, "without a value"));
 }
 
 void tell_integrals(Document& d, const std::vector<FieldIntegral>& all) {

@@ -1,6 +1,5 @@
 #include "barycert/surface/edges.hpp"
 
-#include <cmath>
 #include <numeric>
 
 #include "barycert/base/strict_math.hpp"
@@ -18,8 +17,7 @@ std::vector<std::int32_t> outline_of(const Surface& boundary) {
             std::copy_n(&boundary.points[3 * point], 3, p[c].begin());
         }
         const Vector n = base::cross(base::minus(p[1], p[0]), base::minus(p[2], p[0]));
-        const double length = std::sqrt(base::dot(n, n));
-        return length > 0 ? Vector{n[0] / length, n[1] / length, n[2] / length} : n;
+        return n == Vector{} ? n : base::unit(n);
     };
     constexpr double bend = 0.866;  // cosine of 30 degrees
     std::vector<std::int32_t> segments;

@@ -50,9 +50,7 @@ void take_rows(const std::vector<const Field*>& fields, const std::vector<Mesh::
 
 /// Of the cell with these corners: exact.
 inline Sign orientation(const Mesh& mesh, const Mesh::Index* corners) {
-    const auto at = [&](int i) {
-        return mesh.points.data() + static_cast<std::size_t>(mesh.dimension) * static_cast<std::size_t>(corners[i]);
-    };
+    const auto at = [&](int i) { return mesh.point(corners[i]); };
     return mesh.dimension == 2 ? orient2d(at(0), at(1), at(2)) : orient3d(at(0), at(1), at(2), at(3));
 }
 

@@ -23,6 +23,7 @@ from . import _core
 from ._audit import AuditReport, KernelResult, audit, families, kernels
 from ._check import CheckReport, Contact, Defect, Place, Repair
 from ._core import Error
+from ._figure import Picture
 from ._interpolator import Interpolator
 from ._location import Feature, Location
 from ._mesh import FieldData, Mesh, read
@@ -34,6 +35,6 @@ __version__: str = _core.version
 
 __all__ = [
     "AuditReport", "CheckReport", "ColumnErrors", "Contact", "Defect", "Error", "Feature", "FieldData", "Interpolator",
-    "KernelResult", "Location", "Mesh", "NearestPoints", "Place", "Repair", "Surface", "Verification", "WrongRow",
+    "KernelResult", "Location", "Mesh", "NearestPoints", "Picture", "Place", "Repair", "Surface", "Verification", "WrongRow",
     "audit", "barycentric_weights", "det3d", "families", "incircle", "insphere", "kernels", "orient2d", "orient3d", "read", "verify", "weight_signs",
 ]  # fmt: skip

@@ -16,6 +16,7 @@ from ._arguments import (
 )  # fmt: skip
 from ._check import CheckReport, Repair
 from ._exchange import GivenBack, Parts, parts_of
+from ._figure import Picture
 from ._location import Location
 
 Fields = Union[None, str, Sequence[str]]
@@ -404,6 +405,40 @@ class Mesh(GivenBack):
         values, shape = values_of(field, len(self.points), "values")
         gradients = self._core.gradients(values, telling(progress))
         return gradients.reshape((len(self.cells),) + shape + (self.dimension,))
+
+    def plot(self, field: str = "", **options: Any) -> Picture:
+        """The mesh as a picture: its boundary, or what is chosen, in colours of a field; see `barycert render mesh`.
+
+        Args:
+            field: of one number a node or cell; also "v.x", "|v|", "cell:NAME"; without it the mesh is grey.
+            edges, outline, surface: True or False: the edges of cells; where the boundary bends; the boundary itself.
+            clip: ((nx, ny, nz), offset): what is beyond this plane is cut away. box: (low, high): cells with a node inside.
+            threshold: (field, low, high): cells whose values are within alone.
+            slices: planes as of clip. iso: values of iso-surfaces of iso_field (default: the field).
+            arrows, arrow_count: a field of vectors. marked: numbers of cells, in red.
+            view, camera, zoom, parallel: "iso", "+x", ..., or (azimuth, elevation) in degrees; above 1: nearer; no perspective.
+            size, resolution, samples, background, axes: (width, height); pixels of a .png for one of these; smooth edges, 1:
+                none; (red, green, blue, opacity), 0 to 255; "box", "triad" or "none".
+            title, unit, colormap, range, log, labels, bar: of the colours: (low, high), by logarithm, one for each value; False:
+                no colour bar.
+
+        Raises:
+            Error: no such field or option; what cannot be drawn.
+        """
+        return Picture(lambda path: _core.plot(self._core, field, options, path))
+
+    def plot_line(self, a: Any, b: Any, fields: Fields = None, *, count: int = 200, **options: Any) -> Picture:
+        """Fields over the length from point a to point b, a curve each; broken outside the mesh.
+
+        Args:
+            fields: as for `sample`, 12 components at most. count: points on the line.
+            title, unit, size, background: as for `plot`.
+        """
+        names = [] if fields is None else [fields] if isinstance(fields, str) else list(fields)
+        ends, _ = points_of(np.stack([np.asarray(a, float), np.asarray(b, float)]), self.dimension)
+        count = count_of(count, "count=")
+        options.setdefault("title", " ")
+        return Picture(lambda path: _core.plot_line(self._core, *ends.tolist(), count, names, options, path))
 
     def check(
         self, *, delaunay: bool = False, examples: int = 10, contacts: int = 20, verdict_only: bool = False,

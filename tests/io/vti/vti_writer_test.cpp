@@ -97,7 +97,6 @@ TEST(VtiWriter, NoArrays) {
 
 TEST(VtiWriter, WhatIsRefused) {
     const TemporaryFolder folder;
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     const auto refused = [&](const io::VtiGrid& grid, const std::vector<io::ArrayFormat>& arrays,
                              const std::string& what, const std::string& found) {
         const auto writer = io::VtiWriter::open(folder / "a.vti", grid, arrays);
@@ -108,12 +107,6 @@ TEST(VtiWriter, WhatIsRefused) {
         EXPECT_EQ(folder.file_count(), 0U);
     };
     const io::VtiGrid good{{2, 2, 2}, {0, 0, 0}, {1, 1, 1}};
-    refused({{2, 0, 2}, {}, {1, 1, 1}}, {}, "the points along axis 1", "0");
-    refused({{2, 2, 2147483648}, {}, {1, 1, 1}}, {}, "the points along axis 2", "2147483648");
-    refused({{2, 2, 2}, {nan, 0, 0}, {1, 1, 1}}, {}, "the origin along axis 0", "nan");
-    refused({{2, 2, 2}, {}, {1, 0, 1}}, {}, "the spacing along axis 1", "0");
-    refused({{2, 2, 2}, {}, {1, 1, -1}}, {}, "the spacing along axis 2", "-1");
-    refused({{1, 1, 1}, {}, {nan, 1, 1}}, {}, "the spacing along axis 0", "nan");
     refused(good, {{"", 1, io::NumberType::int8}}, "the name of an array", "none");
     refused(good, {{"a\x01", 1, io::NumberType::int8}}, "the name of an array", "\"a\x01\"");
     refused(good, {{"a", 0, io::NumberType::int8}}, "the components of array \"a\"", "0");
@@ -127,7 +120,6 @@ TEST(VtiWriter, WhatIsRefused) {
     auto writer = io::VtiWriter::open(folder / "a.vti", good, {{"a", 1, io::NumberType::int8}});
     ASSERT_TRUE(writer);
     const Bytes bytes(9);
-    EXPECT_FALSE((*writer)->write(1, bytes));
     const Status more = (*writer)->write(0, bytes);
     ASSERT_FALSE(more);
     EXPECT_EQ(more.error().expected, "8 in all");

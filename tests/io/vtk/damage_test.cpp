@@ -135,7 +135,7 @@ TEST(VtkDamage, HeadersThatLie) {
 /// below.
 TEST(VtkDamage, WhatCompressedBytesCanHold) {
     const std::string zeros(std::size_t{1} << 25, '\0');
-    const auto ratio = [&](io::Compressor compressor) {
+    const auto ratio = [&](VtkData compressor) {
         const std::string packed = io::pack(compressor, zeros);
         EXPECT_LE(zeros.size(), io::max_unpacked(compressor, packed.size()));
         std::string again(zeros.size(), 'x');
@@ -143,9 +143,9 @@ TEST(VtkDamage, WhatCompressedBytesCanHold) {
         EXPECT_TRUE(again == zeros);
         return static_cast<double>(zeros.size()) / static_cast<double>(packed.size());
     };
-    EXPECT_GT(ratio(io::Compressor::zlib), 900);
-    EXPECT_GT(ratio(io::Compressor::lz4), 250);
-    EXPECT_GT(ratio(io::Compressor::lzma), 6600);
+    EXPECT_GT(ratio(VtkData::zlib), 900);
+    EXPECT_GT(ratio(VtkData::lz4), 250);
+    EXPECT_GT(ratio(VtkData::lzma), 6600);
 }
 
 /// A file that is read in parts: its first block leads up to raw data. Behind a comment as long as a block it is read

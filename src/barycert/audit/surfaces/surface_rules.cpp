@@ -1,7 +1,6 @@
 // The rules on triangles in space that are in use, faults included.
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "barycert/audit.hpp"

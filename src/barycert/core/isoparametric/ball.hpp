@@ -6,7 +6,6 @@
 ///   double         u |result|
 ///   double-double  a sum by 4 u^2 (|x| + |y|), a product by 9 u^2 |x y| (error_free-inl.hpp)
 ///   wide           2^-(bits - 2) |result|
-///   rational       nothing
 /// Radii are computed in double: each is at most 8 roundings off, for which it is multiplied by 1 + 2^-48, and what
 /// underflows is less than 2^-1000, which is added. That also covers what the products of double-double lose there.
 #pragma once
@@ -74,11 +73,6 @@ struct NumberTraits<Wide<bits>> {
     static constexpr double of_product = of_sum;
     static double size(const Wide<bits>& x) { return std::abs(x.template convert_to<double>()) * (1 + 0x1p-50); }
 };
-template <>
-struct NumberTraits<Rational> {
-    static constexpr double of_sum = 0, of_product = 0;
-    static double size(const Rational&) { return 0; }
-};
 
 template <class T>
 struct Ball {
@@ -115,7 +109,7 @@ private:
         return r.grown(x.radius + y.radius + NumberTraits<T>::of_sum * size);
     }
     Ball& grown(double by) {
-        if constexpr (!std::is_same_v<T, Rational>) radius = by * (1 + 0x1p-48) + 0x1p-1000;
+        radius = by * (1 + 0x1p-48) + 0x1p-1000;
         return *this;
     }
 };

@@ -8,7 +8,6 @@
 #pragma once
 
 #include <algorithm>
-#include <span>
 
 #include "barycert/core/isoparametric/shape_functions.hpp"
 #include "barycert/simplex.hpp"

@@ -1,7 +1,4 @@
-#include <cmath>
-#include <optional>
 
-#include "barycert/base/vectors.hpp"
 #include "barycert/core/isoparametric/newton.hpp"
 
 namespace barycert::core::isoparametric {

@@ -93,11 +93,12 @@ struct Linear {
     V rest[3], jacobian[3][3];
 };
 
-HWY_INLINE Linear linearise_simplex(D tag, const V (&x)[3], const V (&q)[10][3]) {
+template <LaneElement element>
+HWY_INLINE Linear linearise(D tag, const V (&x)[3], const V (&q)[10][3]) {
     const V one = hn::Set(tag, 1), four = hn::Set(tag, 4);
     const V l[4] = {one - x[0] - x[1] - x[2], x[0], x[1], x[2]};
     V n[10], times_four[4];
-    functions<LaneElement::tetrahedron>(one, x, n);
+    functions<element>(one, x, n);
     for (int c = 0; c < 4; ++c) times_four[c] = four * l[c];
     Linear out;
     for (int k = 0; k < 3; ++k) {
@@ -191,16 +192,9 @@ void evaluate_some(const LaneCases& cases, std::size_t first, LanesProved& prove
         }
     }
     Mask certain = within(tag, size, 0x1p-300, 0x1p300);
-    const auto linear = [&](const V(&at)[3]) HWY_ATTR {
-        if constexpr (B::simplex) {
-            return linearise_simplex(tag, at, high);
-        } else {
-            return linearise<element>(tag, at, high);
-        }
-    };
     const V across = hn::Set(tag, B::simplex ? 0.25 : element == LaneElement::wedge ? 1.0 / 3 : 0.5);
     V x[3] = {across, across, hn::Set(tag, B::simplex ? 0.25 : 0.5)}, y[3][3];
-    Linear at = linear(x);
+    Linear at = linearise<element>(tag, x, high);
     for (int step = 0; step < 12; ++step) {
         invert(tag, at.jacobian, y);
         V moved = zero;
@@ -209,7 +203,7 @@ void evaluate_some(const LaneCases& cases, std::size_t first, LanesProved& prove
             moved = hn::Max(moved, hn::Abs(by));
             x[k] = x[k] - hn::Max(hn::Min(by, one), hn::Neg(one));
         }
-        at = linear(x);
+        at = linearise<element>(tag, x, high);
         if (hn::AllFalse(tag, hn::And(certain, hn::Gt(moved, hn::Set(tag, 0x1p-26))))) break;
     }
     invert(tag, at.jacobian, y);

@@ -1,9 +1,7 @@
 /// Newton's method on the map of a cell, and proofs of what it finds: see inverse.hpp.
 #pragma once
 
-#include <algorithm>
 #include <limits>
-#include <optional>
 
 #include "barycert/core/isoparametric/ball.hpp"
 #include "barycert/core/isoparametric/inverse.hpp"

@@ -1,11 +1,8 @@
 // Curved simplices: their nodes, Bernstein coefficients, and where points are in them.
-#include <algorithm>
 #include <functional>
 #include <map>
-#include <optional>
 #include <tuple>
 
-#include "barycert/base/vectors.hpp"
 #include "barycert/core/isoparametric/newton.hpp"
 
 namespace barycert::core::isoparametric {

@@ -1,7 +1,6 @@
 #include <cmath>
 #include <concepts>
 
-#include "barycert/io/formats.hpp"
 #include "barycert/io/streams.hpp"
 
 namespace barycert::io {

@@ -3,7 +3,6 @@
 
 #include "barycert/io/csv/csv_layout.hpp"
 #include "barycert/io/csv/line_reader.hpp"
-#include "barycert/io/formats.hpp"
 #include "barycert/io/streams.hpp"
 
 namespace barycert::io {

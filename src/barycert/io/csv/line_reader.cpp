@@ -60,10 +60,7 @@ void LineReader::refill() {
         refuse_line(name_, number_ + 1, "a line is too long", "at most " + std::to_string(longest_line) + " bytes",
                     "more", "check that this is a text file, with a line end after each point");
     if (end_ + 1 == buffer_.size()) buffer_.resize(longest_line + 1);  // the file has grown meanwhile
-    ssize_t got = 0;
-    do {
-        got = ::read(file_.number, buffer_.data() + end_, buffer_.size() - 1 - end_);
-    } while (got < 0 && errno == EINTR);
+    const ssize_t got = TEMP_FAILURE_RETRY(::read(file_.number, buffer_.data() + end_, buffer_.size() - 1 - end_));
     if (got < 0) throw Exception(base::read_failure(name_, errno));
     end_ += static_cast<std::size_t>(got);
     buffer_[end_] = '\0';

@@ -1,7 +1,6 @@
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/io/csv/csv_layout.hpp"
 #include "barycert/io/csv/line_reader.hpp"
-#include "barycert/io/formats.hpp"
 #include "barycert/io/npy/npy.hpp"
 #include "barycert/io/streams.hpp"
 
@@ -83,7 +82,6 @@ Field read_text(Field field, const std::string& path, std::string_view bytes) {
     if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3);
     const char* const file_end = bytes.data() + bytes.size();
     std::size_t line_number = 0, components = 0;
-    std::vector<std::string_view> words;
     const auto refuse = [&](const std::string& expected, const std::string& found, const char* remedy) {
         refuse_line(path, line_number, "a row of field \"" + field.name + '"', expected, found, remedy);
     };
@@ -91,7 +89,7 @@ Field read_text(Field field, const std::string& path, std::string_view bytes) {
         const std::string_view line = bytes.substr(0, bytes.find('\n'));
         bytes.remove_prefix(std::min(line.size() + 1, bytes.size()));
         ++line_number;
-        cut_fields(line.substr(0, line.find('#')), " \t\r", ",;", words);
+        const std::vector<std::string_view> words = cut_fields(line.substr(0, line.find('#')), " \t\r", ",;");
         if (words.empty()) continue;
         for (const std::string_view word : words) {
             const auto x = base::parse_double(word);

@@ -3,6 +3,7 @@
 #include "barycert/io/gmsh/msh_parts.hpp"
 #include "barycert/io/parallel.hpp"
 #include "barycert/mesh/cell_types.hpp"
+#include "barycert/mesh/part.hpp"
 
 namespace barycert::io {
 namespace {
@@ -222,12 +223,12 @@ void drop_repeats(MshCells& cells, std::size_t corners, std::size_t mids) {
     if (cells.mesh.cell_numbers.empty()) {
         cells.mesh.cell_numbers = kept;
     } else {
-        keep_rows(cells.mesh.cell_numbers, 1, kept);
+        mesh::keep_rows(cells.mesh.cell_numbers, 1, kept);
     }
     cells.repeated = count - kept.size();
     if (shapes.types.empty()) {
-        keep_rows(cells.mesh.cells, corners, kept);
-        keep_rows(cells.mesh.mid_nodes, mids, kept);
+        mesh::keep_rows(cells.mesh.cells, corners, kept);
+        mesh::keep_rows(cells.mesh.mid_nodes, mids, kept);
     } else {
         Mesh own;
         own.dimension = cells.mesh.dimension;
@@ -235,9 +236,9 @@ void drop_repeats(MshCells& cells, std::size_t corners, std::size_t mids) {
             mesh::add_shape(own, shapes.types[static_cast<std::size_t>(i)], nodes_of(static_cast<std::size_t>(i)));
         shapes = std::move(own.shapes);
     }
-    keep_rows(cells.tags, 1, kept);
-    keep_rows(cells.physical, 1, kept);
-    keep_rows(cells.geometrical, 1, kept);
+    mesh::keep_rows(cells.tags, 1, kept);
+    mesh::keep_rows(cells.physical, 1, kept);
+    mesh::keep_rows(cells.geometrical, 1, kept);
 }
 
 std::vector<std::uint8_t> mark_nodes(const MshFile& file, MshCells& cells, std::size_t node_count) {

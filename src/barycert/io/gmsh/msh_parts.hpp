@@ -1,7 +1,7 @@
 /// What a .msh file of any version holds, in one form: nodes, elements in blocks, cells, groups, views.
 #pragma once
 
-#include "barycert/io/gmsh/rows.hpp"
+#include "barycert/io/gmsh/msh_file.hpp"
 
 namespace barycert::io {
 

@@ -2,11 +2,7 @@
 /// numpy.org/doc/stable/reference/generated/numpy.lib.format.html. Errors are thrown as Exceptions.
 #pragma once
 
-#include <optional>
-#include <span>
-
-#include "barycert/base/input_file.hpp"
-#include "barycert/mesh.hpp"
+#include "barycert/io/formats.hpp"
 
 namespace barycert::io {
 

@@ -1,4 +1,3 @@
-#include "barycert/io/formats.hpp"
 #include "barycert/io/npy/npy.hpp"
 #include "barycert/io/streams.hpp"
 #include "barycert/io/vtk/numbers.hpp"

@@ -3,9 +3,7 @@
 #include <bit>
 #include <cstring>
 #include <set>
-#include <type_traits>
 
-#include "barycert/io/formats.hpp"
 #include "barycert/io/npy/npy.hpp"
 #include "barycert/io/streams.hpp"
 

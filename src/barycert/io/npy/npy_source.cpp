@@ -1,7 +1,6 @@
 // Points from an NPY file.
 
 #include "barycert/base/finite.hpp"
-#include "barycert/io/formats.hpp"
 #include "barycert/io/npy/npy.hpp"
 #include "barycert/io/streams.hpp"
 
@@ -98,8 +97,8 @@ private:
             }
             for (std::size_t i = 0; i < heights_.size(); ++i) {
                 if (heights_[i] != 0 && base::all_finite(some.subspan(dimension_ * i, dimension_)))
-                    throw Exception(off_plane(path_, 0, "row " + std::to_string(next_ + done + i) + ", counted from 0",
-                                              base::shortest(heights_[i])));
+                    refuse_off_plane(path_, "row " + std::to_string(next_ + done + i) + ", counted from 0",
+                                     base::shortest(heights_[i]));
             }
             for (std::size_t k = 0; k < kept_.size(); ++k) file_.values(kept_[k], name(kept_[k]), carried_[k]);
         }

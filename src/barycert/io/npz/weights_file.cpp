@@ -3,11 +3,10 @@
 
 #include <libdeflate.h>
 #include <zlib.h>
-#include <algorithm>
 #include <bit>
 
 #include "barycert/base/output_file.hpp"
-#include "barycert/io.hpp"
+#include "barycert/base/spool.hpp"
 #include "barycert/io/npy/npy.hpp"
 
 namespace barycert::io {
@@ -45,12 +44,13 @@ std::string_view bytes_of(std::span<const T> numbers) {
     return {reinterpret_cast<const char*>(numbers.data()), numbers.size_bytes()};
 }
 
-}  // namespace
-
 /// Arrays one after the other, not compressed, of any size. The file appears whole at commit(), or not at all.
-class NpzWriter {
+class NpzWriter final : public WeightsFile {
 public:
-    explicit NpzWriter(const std::string& path) : file_(path) {}
+    NpzWriter(const std::string& path, std::uint64_t nodes)
+        : file_(path), counts_(path), indices_(path), cells_(path), nodes_(nodes) {
+        begin("data", "<f8");
+    }
 
     /// Error: the file cannot be written, or is a pipe or device: sizes are known only at the end of an array.
     Status check(const std::string& path) const {
@@ -58,6 +58,45 @@ public:
         return file_error(path, "cannot write NPZ to a pipe or device",
                           "a regular file: sizes are written into its headers at the end", {}, "name a regular file");
     }
+
+    Status write(std::span<const std::uint8_t> counts, std::span<const Mesh::Index> nodes,
+                 std::span<const double> weights, std::span<const Mesh::Index> cells) override {
+        write(bytes_of(weights));
+        if (Status kept = counts_.append(counts); !kept) return kept;
+        if (Status kept = indices_.append(nodes); !kept) return kept;
+        return cells_.append(cells);
+    }
+
+    Status commit() override {
+        for (base::Spool* const spool : {&counts_, &indices_, &cells_}) {
+            if (Status kept = spool->finish(); !kept) return kept;
+        }
+        const auto counts = counts_.values<std::uint8_t>();
+        const auto indices = indices_.values<Mesh::Index>();
+        const auto cells = cells_.values<Mesh::Index>();
+        end({indices.size()});
+        const bool narrow = indices.size() <= 0x7fffffff;
+        narrow ? write_pattern<std::int32_t>(counts, indices) : write_pattern<std::int64_t>(counts, indices);
+        begin("cell", "<i8");
+        write_changed<std::int64_t>(cells, std::identity());
+        end({cells.size()});
+        const std::uint64_t shape[] = {cells.size(), nodes_};
+        begin("shape", "<i8");
+        write(bytes_of(std::span<const std::uint64_t>(shape)));
+        end({2});
+        begin("format", "|S3");
+        write("csr");
+        end({});
+        write_directory();
+        return file_.commit();
+    }
+
+private:
+    struct Member {
+        std::string name, descr;
+        std::uint64_t offset = 0, size = 0;
+        std::uint32_t checksum = 0;
+    };
 
     /// Begins the array NAME.npy. `descr`: NumPy's name of the type, such as <f8.
     void begin(const std::string& name, const std::string& descr) {
@@ -109,7 +148,7 @@ public:
         file_.replace(m.offset, local_header(m) + header);
     }
 
-    Status commit() {
+    void write_directory() {
         const std::uint64_t begin = size_;
         for (const Member& m : members_) put(central_header(m));
         const std::uint64_t end = size_, count = members_.size();
@@ -121,15 +160,7 @@ public:
         }
         b.four(0x06054b50).two(0).two(0).two(count).two(count).four(end - begin).four(begin).two(0);
         put(b.all);
-        return file_.commit();
     }
-
-private:
-    struct Member {
-        std::string name, descr;
-        std::uint64_t offset = 0, size = 0;
-        std::uint32_t checksum = 0;
-    };
 
     void put(std::string_view bytes) {
         file_.write(bytes);
@@ -161,52 +192,18 @@ private:
     }
 
     base::OutputFile file_;
-    std::uint64_t size_ = 0;
+    base::Spool counts_, indices_, cells_;
+    std::uint64_t nodes_, size_ = 0;
     std::vector<Member> members_;
     std::uint32_t numbers_ = 0;  ///< CRC-32 of the numbers of the array that was begun
 };
 
-WeightsFile::WeightsFile(const std::string& path, std::uint64_t nodes)
-    : file_(std::make_unique<NpzWriter>(path)), counts_(path), indices_(path), cells_(path), nodes_(nodes) {}
-
-WeightsFile::~WeightsFile() = default;
+}  // namespace
 
 Result<std::unique_ptr<WeightsFile>> WeightsFile::open(const std::string& path, std::uint64_t nodes) {
-    std::unique_ptr<WeightsFile> weights(new WeightsFile(path, nodes));
-    if (Status opened = weights->file_->check(path); !opened) return opened.error();
-    weights->file_->begin("data", "<f8");
-    return weights;
-}
-
-Status WeightsFile::write(std::span<const std::uint8_t> counts, std::span<const Mesh::Index> nodes,
-                          std::span<const double> weights, std::span<const Mesh::Index> cells) {
-    file_->write(bytes_of(weights));
-    if (Status kept = counts_.append(counts); !kept) return kept;
-    if (Status kept = indices_.append(nodes); !kept) return kept;
-    return cells_.append(cells);
-}
-
-Status WeightsFile::commit() {
-    for (base::Spool* const spool : {&counts_, &indices_, &cells_}) {
-        if (Status kept = spool->finish(); !kept) return kept;
-    }
-    const auto counts = counts_.values<std::uint8_t>();
-    const auto indices = indices_.values<Mesh::Index>();
-    const auto cells = cells_.values<Mesh::Index>();
-    file_->end({indices.size()});
-    const bool narrow = indices.size() <= 0x7fffffff;
-    narrow ? file_->write_pattern<std::int32_t>(counts, indices) : file_->write_pattern<std::int64_t>(counts, indices);
-    file_->begin("cell", "<i8");
-    file_->write_changed<std::int64_t>(cells, std::identity());
-    file_->end({cells.size()});
-    const std::uint64_t shape[] = {cells.size(), nodes_};
-    file_->begin("shape", "<i8");
-    file_->write(bytes_of(std::span<const std::uint64_t>(shape)));
-    file_->end({2});
-    file_->begin("format", "|S3");
-    file_->write("csr");
-    file_->end({});
-    return file_->commit();
+    auto file = std::make_unique<NpzWriter>(path, nodes);
+    if (Status opened = file->check(path); !opened) return opened.error();
+    return std::unique_ptr<WeightsFile>(std::move(file));
 }
 
 }  // namespace barycert::io

@@ -1,7 +1,6 @@
 // PLCs from their files; TetGen's .poly and .smesh, with their nodes inside or in STEM.node.
 #include <filesystem>
 
-#include "barycert/io/formats.hpp"
 #include "barycert/io/polygons/polygons.hpp"
 
 namespace barycert::io {

@@ -3,8 +3,6 @@
 #include <cmath>
 #include <filesystem>
 
-#include "barycert/io/formats.hpp"
-
 namespace barycert::io {
 
 bool PlcText::next_line() {
@@ -15,7 +13,7 @@ bool PlcText::next_line() {
         line_ = rest_.substr(0, end);
         rest_.remove_prefix(std::min(end + 1, rest_.size()));
         ++line_number_;
-        cut_fields(line_.substr(0, line_.find('#')), " \t\r,", "", words_);
+        words_ = cut_fields(line_.substr(0, line_.find('#')), " \t\r,", "");
     }
     return !words_.empty();
 }

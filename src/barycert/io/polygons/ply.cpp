@@ -1,6 +1,5 @@
 // G. Turk, "The PLY Polygon File Format", 1994.
 
-#include "barycert/io/formats.hpp"
 #include "barycert/io/polygons/polygons.hpp"
 #include "barycert/io/vtk/numbers.hpp"
 

@@ -1,9 +1,7 @@
 /// Polygons of .off .stl .ply .obj; the words of such files, of .poly and .smesh. Errors are thrown as Exceptions.
 #pragma once
 
-#include <functional>
-
-#include "barycert/io.hpp"
+#include "barycert/io/formats.hpp"
 
 namespace barycert::io {
 

@@ -1,4 +1,3 @@
-#include "barycert/io/formats.hpp"
 #include "barycert/io/polygons/polygons.hpp"
 #include "barycert/io/vtk/numbers.hpp"
 

@@ -1,7 +1,6 @@
 /// Triangles of polygons and PLCs.
 #pragma once
 
-#include "barycert/io/formats.hpp"
 #include "barycert/io/polygons/polygons.hpp"
 #include "barycert/surface/facet_triangles.hpp"
 

@@ -14,7 +14,6 @@
 // Where TetGen would accept and misread, this reader refuses: see row_errors.cpp.
 #include <initializer_list>
 
-#include "barycert/base/arena.hpp"
 #include "barycert/io/streams.hpp"
 #include "barycert/io/tetgen/text_table.hpp"
 #include "barycert/mesh/mid_edges.hpp"

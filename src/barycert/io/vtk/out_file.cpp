@@ -109,7 +109,7 @@ void write_raw(const OutFile& f, base::OutputFile& file) {
 /// before its blocks. Headers and offsets are known last, and replace what stands for them; where nothing can be
 /// replaced, all is compressed twice. There is room for offsets, and for the quote behind. (Blanks before the quote, as
 /// VTK has them, keep meshio 5 from reading the file.)
-bool write_compressed(const OutFile& f, Compressor compressor, base::OutputFile& file) {
+bool write_compressed(const OutFile& f, VtkData compressor, base::OutputFile& file) {
     constexpr std::size_t offset_width = 21;
     std::vector<std::vector<std::uint64_t>> headers;
     for_each_array(f, [&](const OutArray& a) {
@@ -276,10 +276,6 @@ std::string raw_head(const OutFile& f) {
     return head_of(f, {}, offsets, 0);
 }
 
-static_assert(static_cast<Compressor>(VtkData::zlib) == Compressor::zlib &&
-              static_cast<Compressor>(VtkData::lz4) == Compressor::lz4 &&
-              static_cast<Compressor>(VtkData::lzma) == Compressor::lzma);
-
 Status write_xml(const OutFile& f, const std::string& path, VtkData data) {
     base::OutputFile file(path);
     if (Status good = file.status(); !good) return good;
@@ -287,7 +283,7 @@ Status write_xml(const OutFile& f, const std::string& path, VtkData data) {
         write_raw(f, file);
     } else if (data == VtkData::ascii) {
         write_text(f, file);
-    } else if (!write_compressed(f, static_cast<Compressor>(data), file)) {
+    } else if (!write_compressed(f, data, file)) {
         return file_error(path, "too little memory to compress the data", {}, {}, "free some memory");
     }
     return file.commit();

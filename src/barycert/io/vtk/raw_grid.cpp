@@ -149,20 +149,6 @@ std::vector<std::int32_t> first_of_each(std::size_t points, const KeyAt& key_at)
     return first;
 }
 
-using PointBits = std::array<std::uint64_t, 3>;
-struct HashOfBits {
-    std::size_t operator()(const PointBits& x) const {
-        return base::mix64(base::mix64(base::mix64(x[0]) ^ x[1]) ^ x[2]);
-    }
-};
-
-PointBits bits_of_point(const RawGrid& grid, std::size_t point) {
-    PointBits bits{};
-    // Zeros of either sign are one place.
-    for (std::size_t k = 0; k < 3; ++k) bits[k] = std::bit_cast<std::uint64_t>(grid.points[3 * point + k] + 0.0);
-    return bits;
-}
-
 const std::vector<double>* global_ids_of(const RawGrid& grid) {
     for (const RawArray& array : grid.point_arrays) {
         const bool named =
@@ -201,7 +187,7 @@ void merge_points(RawGrid& grid, const std::vector<std::int32_t>& first) {
     for (auto* const nodes : {&grid.cells.connectivity, &grid.faces.rings}) {
         for (std::int32_t& node : *nodes) node = number[static_cast<std::size_t>(node)];
     }
-    keep_rows(grid.points, 3, kept);
+    mesh::keep_rows(grid.points, 3, kept);
     keep_rows(grid.point_arrays, kept);
 }
 
@@ -255,7 +241,7 @@ void RawGrid::append(RawCells more, std::optional<Section> section) {
 void keep_rows(std::vector<RawArray>& arrays, const std::vector<std::int32_t>& rows) {
     for (RawArray& array : arrays) {
         if (!array.fault.empty()) continue;
-        std::visit([&](auto& values) { keep_rows(values, static_cast<std::size_t>(array.components), rows); },
+        std::visit([&](auto& values) { mesh::keep_rows(values, static_cast<std::size_t>(array.components), rows); },
                    array.values);
     }
 }
@@ -311,10 +297,11 @@ void join_pieces(RawGrid& grid, const std::string& path) {
         if (count != 0)
             grid.notes.push_back({kind, before + std::to_string(count) + text, path, kind != Note::Kind::converted});
     };
+    const auto bits_at = [&](std::size_t i) { return base::bits_of_point(&grid.points[3 * i]); };
     const std::vector<double>* const ids = global_ids_of(grid);
     std::vector<std::int32_t> first;
     if (ids == nullptr) {
-        first = first_of_each<PointBits, HashOfBits>(points, [&](std::size_t i) { return bits_of_point(grid, i); });
+        first = first_of_each<base::PointBits, base::HashOfBits>(points, bits_at);
         // Those of one piece are as their writer wants them.
         for (std::size_t piece = 0; piece < grid.piece_points.size(); ++piece) {
             const std::size_t begin = grid.piece_points[piece],
@@ -329,7 +316,7 @@ void join_pieces(RawGrid& grid, const std::string& path) {
     for (std::size_t i = 0; i < points; ++i) {
         const auto own = static_cast<std::size_t>(first[i]);
         if (own == i) continue;
-        if (bits_of_point(grid, i) != bits_of_point(grid, own)) {
+        if (bits_at(i) != bits_at(own)) {
             ++apart;
             first[i] = static_cast<std::int32_t>(i);
         } else {

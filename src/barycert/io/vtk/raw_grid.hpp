@@ -8,6 +8,7 @@
 #include "barycert/io/parallel.hpp"
 #include "barycert/io/vtk/numbers.hpp"
 #include "barycert/mesh/cell_types.hpp"
+#include "barycert/mesh/part.hpp"
 
 namespace barycert::io {
 

@@ -31,7 +31,7 @@ struct XmlTree : FileText {
     // What the attributes of the root say of all arrays, once it is taken.
     bool swap_bytes = false;
     std::size_t header_bytes = 4;  ///< of the integers before the data: 4 or 8
-    Compressor compressor = Compressor::none;
+    VtkData compressor = VtkData::raw;
 
     const XmlElement& root() const { return elements.front(); }
     /// The first child of that name, or whose attribute `key` is that; nullptr if there is none, or no parent.

@@ -137,7 +137,7 @@ public:
     /// Reads the header; what is wrong with it, or empty.
     std::string open() {
         constexpr const char* too_short = "the data end before their header does";
-        const bool plain = tree_.compressor == Compressor::none;
+        const bool plain = tree_.compressor == VtkData::raw;
         const std::optional<std::vector<std::uint64_t>> head = next_words(plain ? 1 : 3);
         if (!head || (!plain && head->front() > from_.left() / tree_.header_bytes)) return too_short;
         size_ = head->front();
@@ -169,7 +169,7 @@ public:
     /// As read_binary, of size() bytes. Blocks are unpacked some at a time: memory grows with what the file really has.
     template <class To>
     NumberFault read(NumberType type, std::size_t count, std::vector<To>& values) {
-        if (tree_.compressor == Compressor::none && packed_.empty()) {
+        if (tree_.compressor == VtkData::raw && packed_.empty()) {
             const std::uint64_t there = std::min(from_.left(), size_) / number_bytes(type);  // at most
             ByteRoom room;
             const std::optional<std::string_view> bytes = from_.take(size_, room);
@@ -186,7 +186,7 @@ public:
         if (at_once) per_wave = packed_.size();
         // No block holds more than its bytes can; of lzma a hundred times what data ever have: there memory grows.
         constexpr std::uint64_t likely = 64;
-        const bool honest = tree_.compressor != Compressor::lzma;
+        const bool honest = tree_.compressor != VtkData::lzma;
         make_room(values,
                   honest ? count : static_cast<std::size_t>(std::min<std::uint64_t>(count, likely * packed_size_)));
         const bool as_they_stand = type != NumberType::bit && (!tree_.swap_bytes || number == 1) &&
@@ -233,7 +233,7 @@ private:
     bool unpack_wave(std::size_t first, std::size_t last, ByteRoom& room, char* to) {
         std::vector<std::size_t> ends{0};
         for (std::size_t i = first; i < last; ++i) ends.push_back(ends.back() + static_cast<std::size_t>(packed_[i]));
-        if (tree_.compressor == Compressor::none) {
+        if (tree_.compressor == VtkData::raw) {
             const std::string_view part = from_.take_as_they_stand(ends.back());
             in_parallel(last - first, [&](std::size_t i) {
                 tree_.read_part(part.substr(ends[i], ends[i + 1] - ends[i]), to + ends[i]);
@@ -310,7 +310,7 @@ void XmlTree::take_layout() {
     };
     swap_bytes = (choose("byte_order", orders) == 0) != (std::endian::native == std::endian::little);
     header_bytes = choose("header_type", headers) == 0 ? 4 : 8;
-    compressor = static_cast<Compressor>(choose("compressor", compressor_names));
+    compressor = static_cast<VtkData>(choose("compressor", compressor_names));
 }
 
 std::optional<NumberType> XmlElement::number_type() const {

@@ -1,10 +1,5 @@
 #include "barycert/locate/mapped/mapped_cells.hpp"
 
-#include <algorithm>
-#include <atomic>
-#include <bit>
-
-#include "barycert/base/arena.hpp"
 #include "barycert/base/finite.hpp"
 #include "barycert/mesh/adjacency.hpp"
 #include "barycert/mesh/mid_edges.hpp"
@@ -49,13 +44,6 @@ std::size_t MappedCells::bytes() const {
 
 // Curved simplices.
 
-MappedCells::PointBits MappedCells::bits_of(const double* point) const {
-    PointBits bits{};
-    for (std::size_t k = 0; k < static_cast<std::size_t>(mesh_.dimension); ++k)
-        bits[k] = std::bit_cast<std::uint64_t>(point[k] + 0.0);
-    return bits;
-}
-
 /// Mid-edge nodes of the boundary that are off the middle by rounding: they may be outside.
 MappedCells::NodeTable MappedCells::rounded_nodes() const {
     NodeTable table;
@@ -68,7 +56,7 @@ MappedCells::NodeTable MappedCells::rounded_nodes() const {
             if (edges[e][0] == corner || edges[e][1] == corner || (maps_.curved_edges(cell) >> e & 1U) != 0) continue;
             const Mesh::Index node = mesh_.mid_nodes[cell * edges.size() + e];
             const auto [at, first] =
-                table.try_emplace(bits_of(this->at(node)), Location{static_cast<Mesh::Index>(cell), Feature::edge});
+                table.try_emplace(bits_at(mesh_.point(node)), Location{static_cast<Mesh::Index>(cell), Feature::edge});
             at->second.cell = std::min(at->second.cell, static_cast<Mesh::Index>(cell));
         }
     }
@@ -77,7 +65,7 @@ MappedCells::NodeTable MappedCells::rounded_nodes() const {
 
 const Location* MappedCells::node_at(const double* point) const {
     const NodeTable& table = nodes_.get([&] { return rounded_nodes(); });
-    const auto found = table.find(bits_of(point));
+    const auto found = table.find(bits_at(point));
     return found == table.end() ? nullptr : &found->second;
 }
 
@@ -103,7 +91,7 @@ iso::InSimplex MappedCells::in_curved(std::size_t whole, const double* point) co
     const mesh::CellMaps::Nodes nodes = maps_.nodes(whole);
     const iso::Reference& reference = *maps_.reference(whole);
     for (std::size_t i = 0; i < nodes.count; ++i) {
-        if (!std::equal(point, point + mesh_.dimension, at(nodes.at[i]))) continue;
+        if (!std::equal(point, point + mesh_.dimension, mesh_.point(nodes.at[i]))) continue;
         if (maps_.places(whole).other[i] != nullptr) continue;  // it is off its straight edge
         iso::InSimplex in{.inside = true, .proved = true};
         for (std::size_t c = 0; c < mesh_.corners(); ++c) in.zeros |= reference.indices[i][c] == 0 ? 1U << c : 0U;
@@ -144,7 +132,8 @@ WeightSigns MappedCells::in_part(Mesh::Index cell, const double* point) const {
     std::array<double, 12> vertices{};
     const auto d = static_cast<std::size_t>(mesh_.dimension);
     for (std::size_t i = 0; i < mesh_.corners(); ++i)
-        std::copy_n(at(mesh_.cells[static_cast<std::size_t>(cell) * mesh_.corners() + i]), d, &vertices[d * i]);
+        std::copy_n(mesh_.point(mesh_.cells[static_cast<std::size_t>(cell) * mesh_.corners() + i]), d,
+                    &vertices[d * i]);
     return weight_signs(d == 2 ? Simplex::triangle : Simplex::tetrahedron, vertices.data(), point);
 }
 
@@ -240,7 +229,7 @@ iso::Evaluated MappedCells::evaluate(Mesh::Index cell, Feature feature, const do
     const iso::Reference* const reference = maps_.reference(whole(cell));
     const bool may_be_node = feature == Feature::vertex || reference == nullptr || reference->is_simplex();
     for (std::size_t i = 0; may_be_node && i < nodes.count; ++i) {
-        if (std::equal(point, point + d, at(nodes.at[i]))) at_node = i;
+        if (std::equal(point, point + d, mesh_.point(nodes.at[i]))) at_node = i;
     }
     if (at_node != nodes.count) {
         for (std::size_t c = 0; c < components; ++c) {
@@ -331,12 +320,12 @@ bool MappedCells::add_tetrahedron(std::size_t own, const PointRecord& point, con
     if (reference.element != iso::Element::tetrahedron || reference.nodes != count) return false;
     const auto nodes = maps_.nodes(own).at;
     for (std::size_t i = 0; i < count; ++i) {
-        const double *place = this->at(nodes[i]), *other = place;
+        const double *place = mesh_.point(nodes[i]), *other = place;
         if (std::equal(place, place + 3, point.at.begin())) return false;
         if (i >= 4 && !has_shapes() && (maps_.curved_edges(own) >> (i - 4) & 1U) == 0) {
             const auto& edge = mesh::edges_of(3)[i - 4];
-            place = this->at(nodes[edge[0]]);
-            other = this->at(nodes[edge[1]]);
+            place = mesh_.point(nodes[edge[0]]);
+            other = mesh_.point(nodes[edge[1]]);
         }
         for (std::size_t k = 0; k < 3; ++k) {
             to.places[(3 * i + k) * Batch::max + to.count] = place[k];
@@ -359,7 +348,7 @@ mesh::CellMaps::Nodes MappedCells::weights(Mesh::Index cell, const double* point
     const mesh::CellMaps::Nodes nodes = maps_.nodes(whole(cell));
     std::fill_n(out, nodes.count, 0.0);
     for (std::size_t i = 0; i < nodes.count; ++i) {
-        if (!std::equal(point, point + mesh_.dimension, at(nodes.at[i]))) continue;
+        if (!std::equal(point, point + mesh_.dimension, mesh_.point(nodes.at[i]))) continue;
         out[i] = 1;
         return nodes;
     }

@@ -17,8 +17,6 @@
 /// is left as its parts, or straight, and counted.
 #pragma once
 
-#include <functional>
-#include <memory>
 #include <unordered_map>
 
 #include "barycert/base/random.hpp"
@@ -108,13 +106,6 @@ private:
         bool outside;
         Feature feature;
     };
-    using PointBits = std::array<std::uint64_t, 3>;
-    struct HashOfBits {
-        std::size_t operator()(const PointBits& x) const {
-            return base::mix64(base::mix64(base::mix64(x[0]) ^ x[1]) ^ x[2]);
-        }
-    };
-
     MappedCells(const Mesh& mesh, bool products, bool curves);
     bool has_shapes() const { return !mesh_.shapes.types.empty(); }
     std::size_t whole_count() const { return sign_.size(); }
@@ -128,18 +119,17 @@ private:
     const Mesh::Index* shape_nodes(std::size_t whole) const {
         return mesh_.shapes.nodes.data() + (whole == 0 ? 0 : mesh_.shapes.ends[whole - 1]);
     }
-    const double* at(Mesh::Index node) const {
-        return &mesh_.points[static_cast<std::size_t>(node) * static_cast<std::size_t>(mesh_.dimension)];
-    }
     void arrange(const CellIndex& index);
     bool add_product(Place place, const NodeValues& values, Batch& to) const;
     bool add_tetrahedron(std::size_t whole, const PointRecord& point, const std::vector<const Field*>& fields,
                          Batch& to) const;
-    PointBits bits_of(const double* point) const;
+    base::PointBits bits_at(const double* point) const {
+        return base::bits_of_point(point, static_cast<std::size_t>(mesh_.dimension));
+    }
     const Location* node_at(const double* point) const;
 
     void find_curves();
-    using NodeTable = std::unordered_map<PointBits, Location, HashOfBits>;
+    using NodeTable = std::unordered_map<base::PointBits, Location, base::HashOfBits>;
     NodeTable rounded_nodes() const;
     core::isoparametric::InSimplex in_curved(std::size_t whole, const double* point) const;
     void add_curved(const double* point, std::vector<Location>& found) const;

@@ -1,11 +1,7 @@
 // The sides of cells whose maps are products: who is on which side of them.
-#include <algorithm>
-#include <bit>
 
-#include "barycert/base/arena.hpp"
 #include "barycert/base/vectors.hpp"
 #include "barycert/core/isoparametric/ball.hpp"
-#include "barycert/index/facet_contact.hpp"
 #include "barycert/locate/mapped/mapped_cells.hpp"
 #include "barycert/mesh/pulling.hpp"
 
@@ -74,7 +70,9 @@ void MappedCells::for_sides(std::size_t shape, Use use) const {
     unsigned bit = 1;
     for (const std::vector<Mesh::Index>& ring : mesh::rings_of(mesh_.shapes.types[shape])) {
         if (ring.size() != 4) continue;
-        use(std::array{at(nodes[ring[0]]), at(nodes[ring[1]]), at(nodes[ring[2]]), at(nodes[ring[3]])}, bit);
+        use(std::array{mesh_.point(nodes[ring[0]]), mesh_.point(nodes[ring[1]]), mesh_.point(nodes[ring[2]]),
+                       mesh_.point(nodes[ring[3]])},
+            bit);
         bit <<= 1U;
     }
 }
@@ -97,7 +95,7 @@ void MappedCells::find_sides() {
     base::parallel_for_each(boxes.size(), 1024, [&](std::size_t i) {
         std::array<const double*, 8> corners{};
         const mesh::CellMaps::Nodes nodes = maps_.nodes(static_cast<std::size_t>(warped_[i].whole));
-        for (std::size_t c = 0; c < nodes.count; ++c) corners[c] = at(nodes.at[c]);
+        for (std::size_t c = 0; c < nodes.count; ++c) corners[c] = mesh_.point(nodes.at[c]);
         boxes[i] = index::box_of(3, corners.data(), static_cast<int>(nodes.count));
     });
     tree_ = std::make_unique<index::BoxTree>(std::move(boxes));
@@ -151,7 +149,7 @@ std::uint64_t MappedCells::active_nodes(std::size_t shape, const double* point) 
         std::uint64_t own = 0;
         for (std::size_t i = 0; i < (flat ? 2 : ring.size()); ++i) {
             const auto place = static_cast<std::size_t>(ring[(i + (flat ? face : 0)) % ring.size()]);
-            n[i] = at(nodes.at[place]);
+            n[i] = mesh_.point(nodes.at[place]);
             own |= std::uint64_t{1} << place;
         }
         const auto in_triangle = [&](std::size_t j, std::size_t k) {

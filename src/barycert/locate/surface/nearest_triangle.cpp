@@ -2,7 +2,6 @@
 // rest is decided and rounded exactly.
 
 #include "barycert/locate/near_bounds.hpp"
-#include "barycert/locate/surface/near_round.hpp"
 #include "barycert/locate/surface/surface_data.hpp"
 
 namespace barycert::locate {

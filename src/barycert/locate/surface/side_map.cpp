@@ -1,10 +1,9 @@
-#include "barycert/locate/surface/side_map.hpp"
+#include "barycert/locate/surface/surface_data.hpp"
 
 #include <cmath>
 
 #include "barycert/base/disjoint_sets.hpp"
 #include "barycert/base/vectors.hpp"
-#include "barycert/locate/surface/surface_data.hpp"
 
 namespace barycert::locate {
 

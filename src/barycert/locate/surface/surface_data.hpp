@@ -5,13 +5,117 @@
 #include "barycert/index/triangles.hpp"
 #include "barycert/locate/lazy.hpp"
 #include "barycert/locate/nearest.hpp"
-#include "barycert/locate/surface/nearest_lanes.hpp"
-#include "barycert/locate/surface/side_map.hpp"
 #include "barycert/surface_locator.hpp"
 
 namespace barycert::locate {
 
 using index::PlacedFacet, index::Ridge, index::Triangles;
+
+struct SurfaceData;
+
+/// On which side of a surface the bins of a grid lie that no triangle touches. The box of the surface in bins: whole
+/// numbers of the quantizer without their last bits. All points of a bin that no triangle touches have one winding
+/// number, and so have two such bins side by side: what no triangle touches is connected, and windings change nowhere
+/// but on triangles.
+class SideMap {
+public:
+    explicit SideMap(const SurfaceData& surface);
+
+    static constexpr std::int16_t touched = INT16_MIN;
+    /// The winding number of a point in the box, exactly; `touched`, if a triangle touches its bin.
+    std::int16_t at(const double* point) const { return sides_[bin_of(point)]; }
+
+    /// A point on the ray from `point` along the first axis, in the next bin that no triangle touches, and its winding;
+    /// beyond the box that is 0.
+    std::int16_t next(const double* point, double (&end)[3]) const;
+
+    std::size_t bytes() const { return sides_.size() * sizeof(std::int16_t); }
+
+private:
+    std::int32_t on_axis(std::size_t k, double x) const { return bins_->quantizer().at(k, x) >> shift_[k]; }
+    std::size_t bin_of(const double* p) const { return bin(on_axis(0, p[0]), on_axis(1, p[1]), on_axis(2, p[2])); }
+    std::size_t bin(std::int32_t i, std::int32_t j, std::int32_t k) const {
+        return (static_cast<std::size_t>(k) * size_[1] + static_cast<std::size_t>(j)) * size_[0] +
+               static_cast<std::size_t>(i);
+    }
+    void touch(const SurfaceData& surface);
+    void fill(const SurfaceData& surface);
+    /// A point of the bin, if rounding leaves one there.
+    bool middle_of(std::size_t bin, double (&p)[3]) const;
+
+    const Bins* bins_;
+    int shift_[3] = {};
+    std::size_t size_[3] = {};
+    std::vector<std::int16_t> sides_;
+};
+
+// Which triangles may be the nearest to a point: in floating point, with bounds, eight at a time.
+
+/// Triangles in groups of eight, and boxes of eight groups, in a unit in which the largest coordinate is near 1. Their
+/// order halves them again and again along the longest side of the box of their middles.
+struct NearGroups {
+    struct alignas(64) Triangles {
+        double at[3][3][8];  ///< of corner, axis, triangle
+    };
+    struct alignas(64) Boxes {
+        double low[3][8], high[3][8];
+    };
+
+    /// Precondition: there is a triangle.
+    explicit NearGroups(const CellIndex& index);
+
+    bool usable = false;                ///< all coordinates are exact in that unit
+    int exponent = 0;                   ///< a coordinate times 2^exponent is in the unit
+    double to_unit = 1, from_unit = 1;  ///< that power of two, and its inverse
+    std::vector<std::uint32_t> order;   ///< the place of each triangle in the index
+    std::size_t count = 0;
+    Buffer<Triangles> triangles;
+    Buffer<Boxes> boxes;              ///< of groups of triangles, then of eight groups, up to one
+    std::vector<std::size_t> levels;  ///< where each begins, from the groups of triangles on
+
+    /// The point in the unit; false if it is not exact there, or so far away that the bounds would tell little.
+    bool take(const double* point, double (&to)[3]) const {
+        bool near = usable;
+        for (int k = 0; k < 3; ++k) {
+            to[k] = point[k] * to_unit;
+            near = near && to[k] <= 16 && to[k] >= -16 && to[k] * from_unit == point[k];
+        }
+        return near;
+    }
+    std::size_t bytes() const { return triangles.bytes() + boxes.bytes() + order.size() * sizeof(std::uint32_t); }
+};
+
+/// What is left to be decided exactly.
+struct NearCandidates {
+    static constexpr std::size_t most = 64;
+    std::uint32_t number[most];  ///< in NearGroups::order
+    std::size_t count = 0;
+};
+
+/// All triangles that may have the nearest point, or one as near, if it is not farther than sqrt(square) in the unit.
+/// `hint`: a triangle to begin with; becomes one that is near. False if there are more than fit. Precondition: usable;
+/// the point was taken.
+bool find_candidates(const NearGroups& groups, const double (&point)[3], double square, std::uint32_t& hint,
+                     NearCandidates& found);
+
+// The vertex, edge or face of a triangle that is nearest to a point, and the nearest point of that, rounded: what
+// floating point can say for certain, many at a time.
+
+/// In a unit in which all numbers are at most 16 and the largest coordinate of corners is near 1.
+struct NearPair {
+    double point[3];
+    double at[3][3];  ///< of corner, axis; for `round_nearest` those of the feature come first
+};
+
+/// masks[i]: of the corners of the feature of pair i that is nearest, a bit each; 0 where it is not certain.
+void classify_nearest(const NearPair* pairs, std::size_t count, std::uint8_t* masks);
+
+/// The projection of the point on the first `corners` corners, and its distance; all correctly rounded, if `certain`.
+struct NearRounded {
+    double distance, at[3], weights[3];
+    bool certain;
+};
+void round_nearest(const NearPair* pairs, std::size_t count, int corners, NearRounded* to);
 
 struct SurfaceData {
     const Surface* surface = nullptr;

@@ -88,10 +88,8 @@ void nearest_of_block(const SurfaceData& data, std::span<const double> points, d
 
 using namespace locate;
 
-SurfaceLocator::SurfaceLocator(std::unique_ptr<SurfaceData> data) : data_(std::move(data)) {}
-SurfaceLocator::SurfaceLocator(SurfaceLocator&&) noexcept = default;
-SurfaceLocator& SurfaceLocator::operator=(SurfaceLocator&&) noexcept = default;
-SurfaceLocator::~SurfaceLocator() = default;
+SurfaceLocator::SurfaceLocator(std::unique_ptr<SurfaceData> data)
+    : data_(data.release(), [](SurfaceData* d) { delete d; }) {}
 
 Result<SurfaceLocator> SurfaceLocator::build(const Surface& surface, const BuildOptions& options) {
     const ExactEnvironment environment;

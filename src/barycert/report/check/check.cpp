@@ -1,6 +1,5 @@
 // What a check of a mesh found, for people.
 
-#include "barycert/draw/picture.hpp"
 #include "barycert/io/png/png_file.hpp"
 #include "barycert/report/check/check_pictures.hpp"
 #include "barycert/report/check/check_words.hpp"

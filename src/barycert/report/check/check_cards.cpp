@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "barycert/base/finite.hpp"
-#include "barycert/draw/picture.hpp"
 #include "barycert/report/check/check_pictures.hpp"
 
 namespace barycert::report {
@@ -35,9 +34,9 @@ Scene scene_of(const Mesh& mesh, const Exhibit& e) {
     std::vector<const double*> at;
     for (const Mesh::Index cell : e.cells) {
         if (cell < 0) continue;
-        for (const Mesh::Index node : nodes_of(mesh, static_cast<std::size_t>(cell))) {
+        for (const Mesh::Index node : mesh.corners_of(static_cast<std::size_t>(cell))) {
             scene.nodes.push_back(node);
-            at.push_back(node_at(mesh, node));
+            at.push_back(mesh.point(node));
         }
     }
     const Normalised normalised(mesh.dimension, at);
@@ -161,7 +160,7 @@ std::string facts(const CheckReport& r, const Mesh& mesh, Mesh::Index cell, std:
     const CellMeasures& m = r.measures;
     const auto c = static_cast<std::size_t>(cell);
     std::string out = fmt::format("<p>{}<b>cell {}</b>, nodes {}<br/>", swatch, r.cell_number(cell),
-                                  fmt::join(nodes_of(mesh, c), " "));
+                                  fmt::join(mesh.corners_of(c), " "));
     if (std::isnan(m.volume[c])) return out + "not measured: it has a node twice</p>\n";
     out += fmt::format("angles {}° to {}°, {} {}<br/>", measure_text(m.min_angle[c]), measure_text(m.max_angle[c]),
                        r.dimension == 2 ? "area" : "volume",

@@ -105,9 +105,9 @@ std::vector<Exhibit> defect_cells(const CheckReport& report, const Mesh& mesh, s
 }
 
 bool drawable(const Mesh& mesh, std::size_t cell) {
-    return std::ranges::all_of(nodes_of(mesh, cell), [&](Mesh::Index node) {
+    return std::ranges::all_of(mesh.corners_of(cell), [&](Mesh::Index node) {
         return node >= 0 && static_cast<std::size_t>(node) < mesh.point_count() &&
-               std::all_of(node_at(mesh, node), node_at(mesh, node) + mesh.dimension,
+               std::all_of(mesh.point(node), mesh.point(node) + mesh.dimension,
                            [](double x) { return std::isfinite(x); });
     });
 }

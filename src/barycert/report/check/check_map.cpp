@@ -21,7 +21,7 @@ Mesh proper_cells(const CheckReport& r, const Mesh& mesh, std::vector<Mesh::Inde
     proper.points = mesh.points;
     proper.index_base = mesh.index_base;
     for (std::size_t cell = 0; cell < mesh.cell_count(); ++cell) {
-        const auto all = nodes_of(mesh, cell);
+        const auto all = mesh.corners_of(cell);
         const bool twice = std::ranges::any_of(all, [&](Mesh::Index i) { return std::ranges::count(all, i) != 1; });
         if (!drawable(mesh, cell) || twice) continue;
         proper.cells.insert(proper.cells.end(), all.begin(), all.end());
@@ -32,13 +32,13 @@ Mesh proper_cells(const CheckReport& r, const Mesh& mesh, std::vector<Mesh::Inde
 }
 
 Vector point_at(const Mesh& mesh, Mesh::Index node) {
-    const double* const p = node_at(mesh, node);
+    const double* const p = mesh.point(node);
     return {p[0], p[1], mesh.dimension == 2 ? 0 : p[2]};
 }
 
 Vector middle_of(const Mesh& mesh, Mesh::Index cell) {
     Vector middle = Vector::Zero();
-    for (const Mesh::Index node : nodes_of(mesh, static_cast<std::size_t>(cell)))
+    for (const Mesh::Index node : mesh.corners_of(static_cast<std::size_t>(cell)))
         middle += point_at(mesh, node) / static_cast<double>(mesh.corners());
     return middle;
 }
@@ -48,7 +48,7 @@ Eigen::AlignedBox3d box_of(const Mesh& mesh) {
     Eigen::AlignedBox3d box;
     for (std::size_t cell = 0; cell < mesh.cell_count(); ++cell) {
         if (!drawable(mesh, cell)) continue;
-        for (const Mesh::Index node : nodes_of(mesh, cell)) box.extend(point_at(mesh, node));
+        for (const Mesh::Index node : mesh.corners_of(cell)) box.extend(point_at(mesh, node));
     }
     return box;
 }

@@ -35,13 +35,6 @@ std::string exhibit_map(const CheckReport& report, const Mesh& mesh, const std::
 using Vector = Eigen::Vector3d;
 using Points = std::span<const Vector>;
 
-inline std::span<const Mesh::Index> nodes_of(const Mesh& mesh, std::size_t cell) {
-    return std::span(mesh.cells).subspan(cell * mesh.corners(), mesh.corners());
-}
-inline const double* node_at(const Mesh& mesh, Mesh::Index node) {
-    return &mesh.points[static_cast<std::size_t>(node) * static_cast<std::size_t>(mesh.dimension)];
-}
-
 /// True if all corners are nodes and have finite coordinates.
 bool drawable(const Mesh& mesh, std::size_t cell);
 

@@ -6,6 +6,7 @@
 #include "barycert/base/strict_math.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
+#include "barycert/index/box_tree.hpp"
 
 namespace barycert {
 namespace {
@@ -137,24 +138,18 @@ Grid as_in_vti(Grid grid) {
 
 Bounds3 bounds_of_cells(const Mesh& mesh) {
     const ExactEnvironment environment;
-    Bounds3 bounds;
     const auto d = static_cast<std::size_t>(mesh.dimension);
+    index::Box box = mesh.cells.empty() ? index::Box{} : index::empty_box;
     for (std::size_t k = 0; k < d && !mesh.is_listed(); ++k) {
-        bounds.low[k] = mesh.axes[k].front();
-        bounds.high[k] = mesh.axes[k].back();
-    }
-    for (std::size_t k = 0; k < d && !mesh.cells.empty(); ++k) {
-        bounds.low[k] = std::numeric_limits<double>::infinity();
-        bounds.high[k] = -bounds.low[k];
+        box.low[k] = mesh.axes[k].front();
+        box.high[k] = mesh.axes[k].back();
     }
     for (const Mesh::Index node : mesh.cells) {
-        for (std::size_t k = 0; k < d; ++k) {
-            const double x = mesh.points[d * static_cast<std::size_t>(node) + k];
-            bounds.low[k] = std::min(bounds.low[k], x);
-            bounds.high[k] = std::max(bounds.high[k], x);
-        }
+        std::array<double, 3> x{};
+        for (std::size_t k = 0; k < d; ++k) x[k] = mesh.point(node)[k];
+        box.add({x, x});
     }
-    return bounds;
+    return {box.low, box.high};
 }
 
 }  // namespace barycert

@@ -301,10 +301,8 @@ Status MapWriter::commit() {
     return to.state;
 }
 
-MapWriter::MapWriter(std::unique_ptr<sample::MapWriterData> data) : data_(std::move(data)) {}
-MapWriter::MapWriter(MapWriter&&) noexcept = default;
-MapWriter& MapWriter::operator=(MapWriter&&) noexcept = default;
-MapWriter::~MapWriter() = default;
+MapWriter::MapWriter(std::unique_ptr<sample::MapWriterData> data)
+    : data_(data.release(), [](sample::MapWriterData* d) { delete d; }) {}
 
 Result<MapReader> MapReader::begin(const std::string& path, const sample::MapHeader& of, const char* cells) {
     Result<base::InputFile> opened = base::InputFile::open(path, "save the map to a regular file first");
@@ -353,9 +351,7 @@ Result<std::size_t> MapReader::read(std::size_t max_rows, Table& rows) {
     return rows.row_count();
 }
 
-MapReader::MapReader(std::unique_ptr<sample::MapReaderData> data) : data_(std::move(data)) {}
-MapReader::MapReader(MapReader&&) noexcept = default;
-MapReader& MapReader::operator=(MapReader&&) noexcept = default;
-MapReader::~MapReader() = default;
+MapReader::MapReader(std::unique_ptr<sample::MapReaderData> data)
+    : data_(data.release(), [](sample::MapReaderData* d) { delete d; }) {}
 
 }  // namespace barycert

@@ -1,7 +1,5 @@
 // Fields of a grid whose cells are not listed (Mesh::axes).
-#include "barycert/core/isoparametric/inverse.hpp"
 #include "barycert/locate/batch.hpp"
-#include "barycert/predicates.hpp"
 #include "barycert/sample/points/chunk_sampler.hpp"
 
 namespace barycert::sample {

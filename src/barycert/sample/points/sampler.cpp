@@ -208,10 +208,8 @@ Result<std::vector<FieldChoice>> choose_fields(const Mesh& mesh, const std::vect
     return sample::quantities_named(mesh, names);
 }
 
-Sampler::Sampler(std::unique_ptr<sample::SamplerData> data) : data_(std::move(data)) {}
-Sampler::Sampler(Sampler&&) noexcept = default;
-Sampler& Sampler::operator=(Sampler&&) noexcept = default;
-Sampler::~Sampler() = default;
+Sampler::Sampler(std::unique_ptr<sample::SamplerData> data)
+    : data_(data.release(), [](sample::SamplerData* d) { delete d; }) {}
 
 Result<Sampler> Sampler::build(const Locator& locator, const std::vector<FieldChoice>& fields) {
     const ExactEnvironment environment;

@@ -1,8 +1,6 @@
 /// Means over the cells of many nodes at once, on SIMD lanes: correctly rounded where that is certain.
 #pragma once
 
-#include <span>
-
 #include "barycert/base/lists.hpp"
 #include "barycert/mesh.hpp"
 

@@ -74,8 +74,7 @@ public:
 
 private:
     const double* corner(Mesh::Index cell, std::size_t i) const {
-        const Mesh::Index node = mesh_.cells[(d_ + 1) * static_cast<std::size_t>(cell) + i];
-        return mesh_.points.data() + d_ * static_cast<std::size_t>(node);
+        return mesh_.point(mesh_.cells[(d_ + 1) * static_cast<std::size_t>(cell) + i]);
     }
     double value(Mesh::Index cell, std::size_t c) const {
         return field_.data[components_ * static_cast<std::size_t>(cell) + c];

@@ -1,11 +1,9 @@
-#include <algorithm>
-#include <cstddef>
-#include <cstdint>
-
-#include "barycert/index/facet_contact.hpp"
+#include "barycert/index/cell_tree.hpp"
+#include "barycert/index/facet_links.hpp"
+#include "barycert/predicates.hpp"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "barycert/index/facet_lanes.cpp"
+#define HWY_TARGET_INCLUDE "barycert/index/lanes.cpp"
 #include "barycert/core/foreach_target.hpp"
 
 #include "barycert/core/filter-inl.hpp"
@@ -15,6 +13,108 @@ HWY_BEFORE_NAMESPACE();
 namespace barycert::index::HWY_NAMESPACE {
 
 using namespace core::HWY_NAMESPACE;
+
+void meeting_pairs(const BoxGroups& boxes, std::size_t g, const BoxGroups::TakePairs& take) {
+    std::array<FacetPair, 256> pairs;
+    std::size_t count = 0;
+    const BoxGroup& mine = boxes.level(0)[g];
+    const CellBox all = mine.box_of_all();
+    const auto with_group = [&](std::size_t h) HWY_ATTR {
+        // Few boxes of another group meet any of this one.
+        const BoxGroup& other = boxes.level(0)[h];
+        for (std::uint32_t theirs = meeting(other, all); theirs != 0; theirs &= theirs - 1) {
+            const auto j = static_cast<std::size_t>(std::countr_zero(theirs));
+            std::uint32_t met = meeting(mine, other.box(j));
+            if (h == g) met &= (1U << j) - 1;
+            if (count + 8 > pairs.size()) {
+                take(std::span(pairs).first(count));
+                count = 0;
+            }
+            for (; met != 0; met &= met - 1)
+                pairs[count++] = {static_cast<std::uint32_t>(8 * g) + static_cast<std::uint32_t>(std::countr_zero(met)),
+                                  static_cast<std::uint32_t>(8 * h + j)};
+        }
+    };
+    if (boxes.levels() == 1) {
+        with_group(0);
+    } else {
+        struct Open {
+            std::size_t level, group;
+        };
+        std::array<Open, 8 * 12> stack;  // as in BoxGroups::for_each_meeting
+        std::size_t top = 0;
+        stack[top++] = {boxes.levels() - 1, 0};
+        while (top > 0) {
+            const Open open = stack[--top];
+            for (std::uint32_t bits = meeting(boxes.level(open.level)[open.group], all); bits != 0; bits &= bits - 1) {
+                const std::size_t i = 8 * open.group + static_cast<std::size_t>(std::countr_zero(bits));
+                if ((i + 1) << 3 * (open.level - 1) <= g) continue;
+                if (open.level > 1) {
+                    stack[top++] = {open.level - 1, i};
+                } else {
+                    with_group(i);
+                }
+            }
+        }
+    }
+    take(std::span(pairs).first(count));
+}
+
+/// The determinant of the edges from the last vertex where its sign is certain, else 0: a numerator of filter-inl.hpp
+/// with that vertex as its point, and with the bound of one.
+template <Simplex s, class D, class Vertices, class V = hn::Vec<D>>
+HWY_INLINE V determinant(D tag, const Vertices& v) {
+    constexpr int d = space_dimension(s);
+    V edge[d][d], extent[d], value, bound;
+    for (int i = 0; i < d; ++i) {
+        for (int k = 0; k < d; ++k) edge[i][k] = v[i][k] - v[d][k];
+    }
+    extents(edge, extent);
+    if constexpr (d == 2) {
+        bound = hn::Set(tag, 8.5 * filter_epsilon) * (extent[0] * extent[1]);
+        value = cross(edge[0], edge[1]);
+    } else {
+        bound = hn::Set(tag, 49 * filter_epsilon) * (extent[0] * extent[1] * extent[2]);
+        V normal[3];
+        cross(edge[1], edge[0], normal);  // as orient3d: counter-clockwise seen from the last vertex
+        value = dot(edge[2], normal);
+    }
+    const auto valid = all_within(tag, extent, 0x1p-300, 0x1p300);
+    return hn::IfThenElseZero(hn::And(valid, hn::Gt(hn::Abs(value), bound)), value);
+}
+
+/// Of a vector of cells: 1 or -1 for each that is certainly positive or negative, else 0.
+template <Simplex s, class D>
+HWY_INLINE void find_signs(D tag, const CellRecord* cells, const NodeRecord* nodes, std::int8_t* out) {
+    using V = hn::Vec<D>;
+    V v[4][4];
+    for (int i = 0; i < vertex_count(s); ++i)
+        load_records(
+            tag, [&](std::size_t l) HWY_ATTR { return nodes[cells[l].node[static_cast<std::size_t>(i)]].at.data(); },
+            v[i]);
+    const V value = determinant<s>(tag, v);
+    const std::uint32_t positive = mask_bits(tag, hn::Gt(value, hn::Zero(tag)));
+    const std::uint32_t negative = mask_bits(tag, hn::Lt(value, hn::Zero(tag)));
+    for (std::size_t l = 0; l < hn::MaxLanes(D()); ++l)
+        out[l] = static_cast<std::int8_t>((positive >> l & 1) - (negative >> l & 1));
+}
+
+template <Simplex s>
+void filter_cells(const CellRecord* cells, const NodeRecord* nodes, std::size_t count, std::int8_t* out) {
+    std::size_t at = 0;
+    const auto run = [&](auto tag) HWY_ATTR {
+        constexpr std::size_t width = hn::MaxLanes(decltype(tag)());
+        for (; at + width <= count; at += width) find_signs<s>(tag, cells + at, nodes, out + at);
+    };
+    run(hn::ScalableTag<double>());
+    run(hn::CappedTag<double, 1>());
+}
+
+void filter_orientations(const CellIndex& index, std::size_t first, std::size_t count, std::int8_t* out) {
+    const CellRecord* const cells = index.cells.data() + first;
+    index.simplex == Simplex::triangle ? filter_cells<Simplex::triangle>(cells, index.nodes.data(), count, out)
+                                       : filter_cells<Simplex::tetrahedron>(cells, index.nodes.data(), count, out);
+}
 
 /// The plane of a triangle: a corner, the edges from there to the others, and what a determinant needs of these.
 template <class V>
@@ -113,14 +213,12 @@ HWY_INLINE hn::Mask<D> plane_separates(D tag, const Pairs<D>& pairs) {
     return hn::Or(sides_of_f.all_on_one(), sides_of_g.all_on_one());
 }
 
-/// The sign of orient2d where it is certain, by its bound (predicates.cpp): 1 or -1, else 0.
+/// The sign of orient2d where it is certain: 1 or -1, else 0.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V side_of_line(D tag, const V* a, const V* b, const V* p) {
-    const V u[2] = {a[0] - p[0], a[1] - p[1]}, v[2] = {b[0] - p[0], b[1] - p[1]};
-    const V extent[2] = {max_magnitude(u[0], v[0]), max_magnitude(u[1], v[1])};
-    const V value = cross(u, v), bound = hn::Set(tag, 8.5 * filter_epsilon) * (extent[0] * extent[1]);
-    const auto certain = hn::And(all_within(tag, extent, 0x1p-300, 0x1p300), hn::Gt(hn::Abs(value), bound));
-    return hn::IfThenElseZero(certain, hn::CopySign(hn::Set(tag, 1.0), value));
+    const V* const vertices[] = {a, b, p};
+    const V value = determinant<Simplex::triangle>(tag, vertices);
+    return hn::IfThenElseZero(hn::Ne(value, hn::Zero(tag)), hn::CopySign(hn::Set(tag, 1.0), value));
 }
 
 /// A side of f has f on one side and all corners of g, but for common ones at its ends, on the other. Then what both
@@ -192,7 +290,23 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace barycert::index {
 
+HWY_EXPORT(meeting_pairs);
+HWY_EXPORT(filter_orientations);
 HWY_EXPORT(keep_doubtful);
+
+void BoxGroups::for_pairs(std::size_t g, const TakePairs& take) const {
+    HWY_DYNAMIC_DISPATCH(meeting_pairs)(*this, g, take);
+}
+
+void find_orientations(const CellIndex& index, std::size_t first, std::size_t count, std::int8_t* out) {
+    HWY_DYNAMIC_DISPATCH(filter_orientations)(index, first, count, out);
+    for (std::size_t i = 0; i < count; ++i) {
+        if (out[i] != 0) continue;
+        const auto at = index.corner_points(static_cast<Place>(first + i));
+        out[i] = static_cast<std::int8_t>(index.simplex == Simplex::triangle ? orient2d(at[0], at[1], at[2])
+                                                                             : orient3d(at[0], at[1], at[2], at[3]));
+    }
+}
 
 std::span<FacetPair> without_separated(std::span<const PlacedFacet> facets, std::span<FacetPair> pairs) {
     return pairs.first(HWY_DYNAMIC_DISPATCH(keep_doubtful)(facets.data(), pairs.data(), pairs.size()));

@@ -1,0 +1,127 @@
+#include "barycert/jobs/mesh_figure.hpp"
+#include "barycert/jobs/profile.hpp"
+#include "bindings.hpp"
+
+namespace barycert::python {
+
+template <>
+inline constexpr Words<Axes> words<Axes>{
+    "axes=", {{{"automatic", Axes::automatic}, {"box", Axes::box}, {"triad", Axes::triad}, {"none", Axes::none}}}};
+
+namespace {
+
+/// Options by name; what nobody asked for is an Error.
+class Options {
+public:
+    explicit Options(const py::dict& given) : left_(given.attr("copy")()) {}
+
+    template <class T>
+    void operator()(const char* name, T& to) const {
+        if (!left_.contains(name)) return;
+        try {
+            to = left_.attr("pop")(name).template cast<T>();
+        } catch (const py::cast_error&) {
+            throw Exception({.what = "the option " + std::string(name) + " is of another type; see Mesh.plot"});
+        }
+    }
+    void finish() const {
+        for (const auto& [name, value] : left_)
+            throw Exception({.what = "no such option", .found = py::str(name), .remedy = "see Mesh.plot"});
+    }
+
+private:
+    py::dict left_;
+};
+
+/// Normal and offset.
+using GivenPlane = std::pair<std::array<double, 3>, double>;
+
+void take(const Options& given, SceneChoice& show) {
+    given("surface", show.surface);
+    given("edges", show.edges);
+    given("outline", show.outline);
+    given("box", show.box);
+    std::optional<GivenPlane> clip;
+    given("clip", clip);
+    if (clip) show.plane = Plane{clip->first, clip->second};
+    std::vector<GivenPlane> slices;
+    given("slices", slices);
+    for (const auto& [normal, offset] : slices) show.slices.push_back({normal, offset});
+    std::optional<std::tuple<std::string, double, double>> threshold;
+    given("threshold", threshold);
+    if (threshold) std::apply([&](auto&... of) { show.threshold = {of...}; }, *threshold);
+    given("iso", show.iso);
+    given("iso_field", show.iso_field);
+    given("arrows", show.arrows);
+    given("arrow_count", show.arrow_count);
+    given("marked", show.marked);
+}
+
+void take(const Options& given, FigureOptions& o) {
+    std::pair<std::int32_t, std::int32_t> size{o.size.width, o.size.height};
+    given("size", size);
+    o.size = {size.first, size.second};
+    std::string view;
+    given("view", view);
+    std::optional<std::pair<double, double>> camera = angles_of(view);
+    if (!view.empty() && !camera)
+        throw Exception({.what = "the view", .expected = "iso, +x, -x, +y, -y, +z or -z", .found = view});
+    given("camera", camera);
+    if (camera) std::tie(o.camera.azimuth, o.camera.elevation) = *camera;
+    given("zoom", o.camera.zoom);
+    given("parallel", o.camera.parallel);
+    given("resolution", o.resolution);
+    given("samples", o.samples);
+    given("background", o.background);
+    given("axes", o.axes);
+    given("title", o.title);
+    given("unit", o.unit);
+    given("colormap", o.colour_map);
+    given("range", o.range);
+    given("log", o.log);
+    given("labels", o.labels);
+    given("bar", o.bar);
+}
+
+void plot(const MeshObject& object, const std::string& field, const py::dict& options, const std::string& path) {
+    SceneChoice show;
+    FigureOptions figure;
+    const Options given(options);
+    take(given, show);
+    take(given, figure);
+    given.finish();
+    if (show.iso_field.empty()) show.iso_field = field;
+    const py::gil_scoped_release unlocked;
+    const Mesh mesh = object.whole();
+    Notes notes;
+    jobs::MeshFigure drawn(mesh, show, field, 0, notes);
+    drawn.add_mesh();
+    (void)drawn.write(path, figure);
+}
+
+void plot_line(MeshObject& object, std::vector<double> from, std::vector<double> to, std::int64_t count,
+               const std::vector<std::string>& fields, const py::dict& options, const std::string& path) {
+    SampleJob job;
+    job.plot = path;
+    const Options given(options);
+    take(given, job.figure);
+    given.finish();
+    const std::shared_ptr<BoundSampler> sampler = object.sampler(fields, {});
+    const py::gil_scoped_release unlocked;
+    std::vector<double> points;
+    jobs::points_on({std::move(from), std::move(to), count})->read(static_cast<std::size_t>(count), points).value();
+    const Table rows = sampler->sampler.sample(points).value();
+    const SampleReport report;
+    const jobs::Sink sink = jobs::plotted({}, job, rows.columns, report);
+    sink->write(rows.view()).value();
+    sink->commit().value();
+}
+
+}  // namespace
+
+void bind_figure(py::module_& module) {
+    module.def("plot", &plot);
+    module.def("plot_line", &plot_line);
+}
+
+}  // namespace barycert::python
