@@ -181,6 +181,9 @@ struct SampleReport : MeshReport {
 /// Return an Error, and write nothing, if the job contradicts itself, an input cannot be read, an output is an input or
 /// cannot be written, or the policy for points outside is `error` and a point is outside.
 Result<SampleReport> sample_files(const SampleJob& job);
+/// The plot alone, of what a sampler has: columns of no more than twelve.
+Status write_line_plot(const std::string& path, const Sampler& sampler, const PointLine& line,
+                       const FigureOptions& options);
 Result<SampleReport> resample_files(const ResampleJob& job);
 
 // A mesh checked, and repaired if asked; or a surface, or a PLC (.poly, .smesh): then options of meshes are errors.
@@ -382,6 +385,10 @@ struct RenderJob : MeshJob {
 /// Error if the job contradicts itself, an input cannot be read, a mesh has no such field or component or no cells, as
 /// render and write_figure do, or if the file cannot be written.
 Result<RenderReport> render_files(const RenderJob& job);
+
+/// The same of a mesh in memory, to the file `path`: .png, .svg, .pdf or .html.
+Status write_mesh_figure(const std::string& path, const Mesh& mesh, const SceneChoice& show, const std::string& field,
+                         const FigureOptions& options);
 
 // Iso-surfaces, iso-lines and slices of meshes.
 

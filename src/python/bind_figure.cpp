@@ -1,5 +1,4 @@
-#include "barycert/jobs/mesh_figure.hpp"
-#include "barycert/jobs/profile.hpp"
+#include "barycert/jobs.hpp"
 #include "bindings.hpp"
 
 namespace barycert::python {
@@ -92,29 +91,18 @@ void plot(const MeshObject& object, const std::string& field, const py::dict& op
     given.finish();
     if (show.iso_field.empty()) show.iso_field = field;
     const py::gil_scoped_release unlocked;
-    const Mesh mesh = object.whole();
-    Notes notes;
-    jobs::MeshFigure drawn(mesh, show, field, 0, notes);
-    drawn.add_mesh();
-    (void)drawn.write(path, figure);
+    write_mesh_figure(path, object.whole(), show, field, figure).value();
 }
 
 void plot_line(MeshObject& object, std::vector<double> from, std::vector<double> to, std::int64_t count,
                const std::vector<std::string>& fields, const py::dict& options, const std::string& path) {
-    SampleJob job;
-    job.plot = path;
+    FigureOptions figure;
     const Options given(options);
-    take(given, job.figure);
+    take(given, figure);
     given.finish();
-    const std::shared_ptr<BoundSampler> sampler = object.sampler(fields, {});
+    const std::shared_ptr<BoundSampler> of = object.sampler(fields, {});
     const py::gil_scoped_release unlocked;
-    std::vector<double> points;
-    jobs::points_on({std::move(from), std::move(to), count})->read(static_cast<std::size_t>(count), points).value();
-    const Table rows = sampler->sampler.sample(points).value();
-    const SampleReport report;
-    const jobs::Sink sink = jobs::plotted({}, job, rows.columns, report);
-    sink->write(rows.view()).value();
-    sink->commit().value();
+    write_line_plot(path, of->sampler, {std::move(from), std::move(to), count}, figure).value();
 }
 
 }  // namespace

@@ -187,7 +187,7 @@ async function turning(opened, mesh) {
   check(seen.length > 20, `${seen.length} cells are seen`);
   const some = Array.from({ length: 300 }, (_, i) => [i * 0.618034, i * 0.7548777, i * 0.5698403].map((x) => x % 1).join(","));
   const table = execFileSync(program, ["sample", mesh, "--points", "-", "--fields", "attribute0", "--output", "-"],
-    { input: ["x,y,z", ...some].join("\n"), encoding: "utf8", stdio: ["pipe", "pipe", "ignore"] });
+    { input: ["x,y,z", ...some, ""].join("\n"), encoding: "utf8", stdio: ["pipe", "pipe", "ignore"] });
   const [heads, ...rows] = table.trim().split("\n").map((line) => line.split(","));
   const column = (row, name) => Number(row[heads.indexOf(name)]);
   for (const options of [{ viewport: { width: 1280, height: 900 } }, { viewport: { width: 390, height: 844 }, hasTouch: true }]) {

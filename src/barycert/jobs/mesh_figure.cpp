@@ -160,10 +160,10 @@ CutOptions MeshFigure::carried() {
     return options;
 }
 
-draw::PageScene MeshFigure::page(const FigureOptions& options) const {
+viewer::PageScene MeshFigure::page(const FigureOptions& options) const {
     if (!figure_.arrows.empty() || options.labels)
         refuse("", "pages have neither arrows nor labels", "surfaces and lines", "", "name a .png, .svg or .pdf file");
-    draw::PageScene scene{mesh_, drawn_, {}, {}, colours_, figure(options)};
+    viewer::PageScene scene{mesh_, drawn_, {}, {}, colours_, figure(options)};
     const auto add = [](std::vector<const Field*>& to, const std::vector<Field>& fields) {
         for (const Field& f : fields) to.push_back(&f);
     };
@@ -176,7 +176,7 @@ FigureCounts MeshFigure::write(const std::string& path, FigureOptions options) c
     if (options.bar_title.empty()) options.bar_title = colours_.empty() ? show_.iso_field : colours_;
     FigureCounts counts;
     if (io::has_suffix(path, ".html")) {
-        draw::write_page(path, page(options), counts).value();
+        viewer::write_page(path, page(options), counts).value();
     } else {
         write_figure(path, figure(options), &counts).value();
     }
@@ -367,3 +367,19 @@ void MeshFigure::add_arrows() {
 }
 
 }  // namespace barycert::jobs
+
+namespace barycert {
+
+Status write_mesh_figure(const std::string& path, const Mesh& mesh, const SceneChoice& show, const std::string& field,
+                         const FigureOptions& options) try {
+    const ExactEnvironment environment;
+    Notes notes;
+    jobs::MeshFigure figure(mesh, show, field, 0, notes);
+    figure.add_mesh();
+    (void)figure.write(path, options);
+    return Done{};
+} catch (const Exception& e) {
+    return e.error();
+}
+
+}  // namespace barycert

@@ -3,8 +3,8 @@
 
 #include <deque>
 
-#include "barycert/draw/page.hpp"
 #include "barycert/jobs.hpp"
+#include "barycert/viewer/page.hpp"
 
 namespace barycert::jobs {
 
@@ -31,7 +31,7 @@ public:
     FigureCounts write(const std::string& path, FigureOptions options) const;
 
 private:
-    draw::PageScene page(const FigureOptions& options) const;
+    viewer::PageScene page(const FigureOptions& options) const;
     void choose_cells();
     CutOptions carried();
     void add_cut_open(const Surface& surface);
@@ -49,7 +49,7 @@ private:
     Notes& notes_;
     Mesh chosen_;
     std::deque<Surface> surfaces_;
-    std::vector<draw::PageSurface> drawn_;  ///< as those of the figure
+    std::vector<viewer::PageSurface> drawn_;  ///< as those of the figure
     std::deque<std::vector<double>> numbers_;
     std::deque<std::vector<std::int32_t>> indices_;
     std::deque<Field> made_;

@@ -6,6 +6,7 @@
 #include "barycert/base/strict_math.hpp"
 #include "barycert/draw/axes.hpp"
 #include "barycert/draw/files.hpp"
+#include "barycert/environment.hpp"
 
 namespace barycert::jobs {
 namespace {
@@ -147,3 +148,25 @@ Sink plotted(Sink sink, const SampleJob& job, std::vector<std::string> columns, 
 }
 
 }  // namespace barycert::jobs
+
+namespace barycert {
+
+Status write_line_plot(const std::string& path, const Sampler& sampler, const PointLine& line,
+                       const FigureOptions& options) try {
+    const ExactEnvironment environment;
+    SampleJob job;
+    job.plot = path;
+    job.figure = options;
+    std::vector<double> points;
+    jobs::points_on(line)->read(static_cast<std::size_t>(line.count), points).value();
+    Table rows = sampler.sample(points).value();
+    rows.points = std::move(points);
+    const SampleReport report;
+    const jobs::Sink sink = jobs::plotted({}, job, rows.columns, report);
+    sink->write(rows.view()).value();
+    return sink->commit();
+} catch (const Exception& e) {
+    return e.error();
+}
+
+}  // namespace barycert

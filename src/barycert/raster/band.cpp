@@ -33,9 +33,7 @@ void divide_by_scale(double* numbers, std::size_t own, std::size_t count) {
     }
 }
 
-}  // namespace
-
-class Band::Samples {
+class Samples final : public Band {
 public:
     Samples(const Layers& layers, std::int32_t begin, std::int32_t end)
         : layers_(layers),
@@ -49,7 +47,7 @@ public:
 
     RenderCounts counts;
 
-    bool draw(const Part& part, std::span<const double> numbers) {
+    bool draw(const Part& part, std::span<const double> numbers) override {
         const std::uint64_t before = counts.covered;
         part_ = &part;
         numbers_ = numbers;
@@ -59,7 +57,7 @@ public:
         return counts.covered != before;
     }
 
-    RenderCounts resolve_into(Image& image) {
+    RenderCounts resolve_into(Image& image) override {
         counts.pixels +=
             static_cast<std::uint64_t>(std::ranges::count_if(depth_, [](double z) { return z < HUGE_VAL; }));
         raster::resolve(colours_, samples_, layers_.size.width, begin_ / samples_, image);
@@ -264,17 +262,10 @@ private:
     float own_slack_ = 0;
 };
 
-Band::Band(const Layers& layers, std::int32_t begin, std::int32_t end)
-    : samples_(std::make_unique<Samples>(layers, begin, end)) {}
+}  // namespace
 
-Band::~Band() = default;
-
-bool Band::draw(const Part& part, std::span<const double> numbers) {
-    return samples_->draw(part, numbers);
-}
-
-RenderCounts Band::resolve_into(Image& image) {
-    return samples_->resolve_into(image);
+std::unique_ptr<Band> Band::over(const Layers& layers, std::int32_t begin, std::int32_t end) {
+    return std::make_unique<Samples>(layers, begin, end);
 }
 
 }  // namespace barycert::raster

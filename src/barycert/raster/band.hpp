@@ -10,19 +10,13 @@ namespace barycert::raster {
 class Band {
 public:
     /// Rows of pixels begin ... end - 1.
-    Band(const Layers& layers, std::int32_t begin, std::int32_t end);
-    ~Band();
-    Band(const Band&) = delete;
-    Band& operator=(const Band&) = delete;
+    static std::unique_ptr<Band> over(const Layers& layers, std::int32_t begin, std::int32_t end);
+    virtual ~Band() = default;
 
     /// `numbers`: layers.numbers of each vertex. True if it covers a sample.
-    bool draw(const Part& part, std::span<const double> numbers);
+    virtual bool draw(const Part& part, std::span<const double> numbers) = 0;
     /// When all is drawn: into the rows of the image, and what has become of samples.
-    RenderCounts resolve_into(Image& image);
-
-private:
-    class Samples;
-    std::unique_ptr<Samples> samples_;
+    virtual RenderCounts resolve_into(Image& image) = 0;
 };
 
 }  // namespace barycert::raster

@@ -63,16 +63,10 @@ struct Polygons : Surface {
     std::size_t count() const { return counts.empty() ? rings.size() / 3 : counts.size(); }
 };
 
-/// Text or binary, with fields of points and polygons: properties that are numbers, but for coordinates.
-Polygons read_ply(PlcText& in);
-
 /// The whole file, which is any of these by the end of its path; `counts` is empty if all are triangles.
 Polygons read_polygons(const std::string& path);
 
 /// By the beginning of a file of `size` bytes: whether it has binary data, in which a zero byte is no fault.
 bool is_binary_surface(std::string_view path, std::string_view beginning, std::size_t size);
-
-/// Polygons that name no point, or a count that the file cannot hold.
-void check_corners(PlcText& in, Polygons& all);
 
 }  // namespace barycert::io

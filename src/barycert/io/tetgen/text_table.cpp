@@ -103,24 +103,6 @@ void check_field(const TextTable& table, const Columns& columns, std::string_vie
     refuse_at(table, at, "too many columns in a row", described_columns(table), found, table.surplus_remedy);
 }
 
-Complaint about_real(std::string_view field, const std::string& finite, const std::string& separators) {
-    const std::string_view body = without_sign(field);
-    if (looks_like_number(body, ".eEdD+-") && body.find_first_of("dD") != std::string_view::npos)
-        return {"a number", "write the exponent with e: programs in C stop reading at the d"};
-    // A number in form: either it overflows, or its signs and exponent are askew.
-    if (looks_like_number(body, ".eE+-") && std::count(body.begin(), body.end(), '.') < 2)
-        return {"a number that a double can hold", "check the number: the largest double is near 1.8e308"};
-    if (looks_like_number(body, ".,eE+-") && body.find(',') != std::string_view::npos)
-        return {"a number", "write it with a decimal point, not a comma"};
-    const std::string word = lower(body.substr(0, 3));
-    if (word == "nan" || word == "inf") return {"a finite number", finite};
-    if (field.find('\r') != std::string_view::npos)
-        return {"a number", "end the lines with LF or CR LF, not with CR alone"};
-    if (std::any_of(field.begin(), field.end(), [](char c) { return static_cast<unsigned char>(c) < 32 && c != '\t'; }))
-        return {"a number", "save the file as text: this looks like binary data"};
-    return {"a number", separators};
-}
-
 /// The fields of the line that holds `at`, without its comment; an empty field where a comma has no neighbour.
 std::vector<std::string_view> fields_of_line(const TextTable& table, const char* at) {
     const std::string_view bytes = table.bytes;
@@ -373,6 +355,24 @@ void read_header(TextTable& table, std::span<const char* const> header_names) {
 }
 
 }  // namespace
+
+Complaint about_real(std::string_view field, const std::string& finite, const std::string& separators) {
+    const std::string_view body = without_sign(field);
+    if (looks_like_number(body, ".eEdD+-") && body.find_first_of("dD") != std::string_view::npos)
+        return {"a number", "write the exponent with e: programs in C stop reading at the d"};
+    // A number in form: either it overflows, or its signs and exponent are askew.
+    if (looks_like_number(body, ".eE+-") && std::count(body.begin(), body.end(), '.') < 2)
+        return {"a number that a double can hold", "check the number: the largest double is near 1.8e308"};
+    if (looks_like_number(body, ".,eE+-") && body.find(',') != std::string_view::npos)
+        return {"a number", "write it with a decimal point, not a comma"};
+    const std::string word = lower(body.substr(0, 3));
+    if (word == "nan" || word == "inf") return {"a finite number", finite};
+    if (field.find('\r') != std::string_view::npos)
+        return {"a number", "end the lines with LF or CR LF, not with CR alone"};
+    if (std::any_of(field.begin(), field.end(), [](char c) { return static_cast<unsigned char>(c) < 32 && c != '\t'; }))
+        return {"a number", "save the file as text: this looks like binary data"};
+    return {"a number", separators};
+}
 
 void TextTable::read_whole() {
     if (std::exchange(is_whole, true)) return;

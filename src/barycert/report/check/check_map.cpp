@@ -5,11 +5,11 @@
 #include <deque>
 
 #include "barycert/draw/layout.hpp"
-#include "barycert/draw/page.hpp"
 #include "barycert/mesh/part.hpp"
 #include "barycert/report/check/check_pictures.hpp"
 #include "barycert/report/check/check_words.hpp"
 #include "barycert/surface/edges.hpp"
+#include "barycert/viewer/page.hpp"
 
 namespace barycert::report {
 namespace {
@@ -111,7 +111,7 @@ std::string picture_of(const CheckReport& r, const Mesh& mesh, const std::vector
     const Result<Surface> hull = boundary(proper, {.threads = r.threads});
     if (!hull || hull->cells.empty()) return "";
     const Surface skin = plane ? surface::facets_of(proper) : Surface();
-    draw::PageScene scene{&proper, {{plane ? &skin : &*hull, {}, !plane}}};
+    viewer::PageScene scene{&proper, {{plane ? &skin : &*hull, {}, !plane}}};
     scene.figure = {.dimension = mesh.dimension, .options = {.size = {640, 460}, .background{}, .bar = false}};
     const auto segments = surface::outline_of(*hull);
     scene.figure.lines = {{hull->points, segments, 1, grey}};
@@ -141,7 +141,7 @@ std::string picture_of(const CheckReport& r, const Mesh& mesh, const std::vector
     }
     scene.field = bad.cells.empty() ? fields[4].name : "";
     scene.see_through = !bad.cells.empty();
-    return turning_figure(scene, markup);
+    return viewer::turning_figure(scene, markup);
 }
 
 }  // namespace

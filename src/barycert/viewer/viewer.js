@@ -269,17 +269,13 @@ class Viewer {
     return [high > low ? Math.max(0, Math.min((y - low) / (high - low), 1)) : 0.5, 0.25];
   }
 
-  isClear(surface) {
-    return surface.clear && this.through.checked;
-  }
-
   meshOf({ positions, uv }, { colour, clear }) {
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute("position", new THREE.BufferAttribute(positions, 3));
     geometry.setAttribute("uv", new THREE.BufferAttribute(uv, 2));
     const back = colour ? 0 : 1;  // behind lines, and behind what has a colour of its own
     const look = { side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: back, polygonOffsetUnits: back };
-    if (this.isClear({ clear })) Object.assign(look, { transparent: true, opacity: 0.3, depthWrite: false });
+    if (clear && this.through.checked) Object.assign(look, { transparent: true, opacity: 0.3, depthWrite: false });
     Object.assign(look, colour ? { color: new THREE.Color(`rgb(${colour.slice(0, 3)})`) } : { map: this.map });
     const Material = this.corners === 3 ? THREE.MeshBasicMaterial : THREE.MeshLambertMaterial;
     return new THREE.Mesh(geometry, new Material({ ...look, ...(this.corners === 3 ? {} : { flatShading: true }) }));
@@ -357,7 +353,7 @@ class Viewer {
     const box = this.renderer.domElement.getBoundingClientRect(), ray = new THREE.Raycaster();
     const at = new THREE.Vector2((2 * (x - box.left)) / box.width - 1, 1 - (2 * (y - box.top)) / box.height);
     ray.setFromCamera(at, this.camera);
-    const all = this.surfaces.filter((s) => !this.isClear(s));
+    const all = this.surfaces.filter((s) => !(s.clear && this.through.checked));
     const meshes = [...(all.length ? all : this.surfaces), ...(this.section ? [this.section] : [])];
     const hit = ray.intersectObjects(meshes.map((m) => m.mesh), false).find((h) =>
       !this.plane || (this.section && h.object === this.section.mesh) || this.plane.distanceToPoint(h.point) >= 0);

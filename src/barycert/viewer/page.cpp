@@ -1,4 +1,4 @@
-#include "barycert/draw/page.hpp"
+#include "barycert/viewer/page.hpp"
 
 #include <cstring>
 
@@ -14,9 +14,10 @@
 BARYCERT_EMBED(barycert_viewer, BARYCERT_VIEWER);
 BARYCERT_EMBED(barycert_three, BARYCERT_THREE);
 
-namespace barycert::draw {
+namespace barycert::viewer {
 namespace {
 
+using namespace draw;
 using Json = nlohmann::ordered_json;
 
 /// Deflated, in base64. Memory: three times the bytes.
@@ -222,4 +223,4 @@ h1{{font-size:20px;margin:0 0 8px}}figure{{margin:0}}img{{max-width:100%;height:
     return file.commit();
 }
 
-}  // namespace barycert::draw
+}  // namespace barycert::viewer

@@ -4,7 +4,7 @@
 #include "barycert/figure.hpp"
 #include "barycert/surface.hpp"
 
-namespace barycert::draw {
+namespace barycert::viewer {
 
 /// With more cells a page has those alone that a surface lies in: then a plane shows no section.
 inline constexpr std::size_t most_page_cells = 50000;
@@ -38,4 +38,4 @@ std::string turning_figure(const PageScene& scene, std::string_view still);
 /// A page of the scene alone. Error: as draw_figure, for the still picture; the file cannot be written.
 Status write_page(const std::string& path, const PageScene& scene, FigureCounts& counts);
 
-}  // namespace barycert::draw
+}  // namespace barycert::viewer
