@@ -126,7 +126,7 @@ def scenes():
     write("iso", *mapped(iso, "attribute0", (1, 2)), outlined(grid_of(cube)))
     clip = filtered(vtk.vtkClipDataSet, grid_of(cube), SetClipFunction=plane((0, 0.5, 0), (0, 1, 0)), InsideOutOn=())
     write("clip", *with_edges(mapped(clip, "attribute0", of(cube, "attribute0"))))
-    kept = filtered(vtk.vtkThreshold, grid_of(torus, "attribute1"), SetUpperThreshold=0.0, SetThresholdFunction=1)
+    kept = filtered(vtk.vtkThreshold, grid_of(torus, "attribute1"), SetLowerThreshold=0.0, SetThresholdFunction=1)
     write("threshold", *with_edges(mapped(kept, "attribute1", (-1, 0))), outlined(grid_of(torus)))
     grid = grid_of(torus)
     turning = numpy_to_vtk(np.stack([-torus.points[:, 1], torus.points[:, 0], 0.3 * torus.points[:, 0]], axis=-1), deep=1)

@@ -23,7 +23,7 @@ TEST(CheckHtml, APageBesideTheTable) {
         EXPECT_TRUE(is_page(page));
         EXPECT_TRUE(contains(page, "<b>Certified</b>"));
         EXPECT_TRUE(contains(page, name));
-        EXPECT_LT(page.size(), 300000U);
+        EXPECT_LT(page.size(), 2000000U);
     }
 }
 

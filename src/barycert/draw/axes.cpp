@@ -186,8 +186,8 @@ void Plot::curves(const std::vector<Curve>& all, const std::string& style, bool 
 }
 
 void Plot::entry(std::string style, std::string what) {
-    picture.line({720, legend + 10}, {748, legend + 10}, std::move(style));
-    picture.text({758, legend + 14}, std::move(what), "small");
+    picture.line({x.to + 20, legend + 10}, {x.to + 48, legend + 10}, std::move(style));
+    picture.text({x.to + 58, legend + 14}, std::move(what), "small");
     legend += 22;
 }
 

@@ -60,11 +60,16 @@ inline constexpr std::size_t max_curves = 6;
 
 /// A title above, axes, a legend to the right, notes below.
 struct Plot {
-    Axis x{.from = 76, .to = 700}, y{.from = 500, .to = 60};
+    Axis x, y;
     Picture picture;
     double legend = 76;  ///< where its next entry stands
 
-    explicit Plot(const std::string& title) : picture(980, 620, title) { picture.text({70, 34}, title, "head"); }
+    /// `beside`, `below`: for legend and notes.
+    explicit Plot(const std::string& title, double wide = 980, double tall = 620, double beside = 280,
+                  double below = 120)
+        : x{.from = 76, .to = wide - beside}, y{.from = tall - below, .to = 60}, picture(wide, tall, title) {
+        picture.text({70, 34}, title, "head");
+    }
 
     /// The first on top; with a legend. `marks`: at each point.
     void curves(const std::vector<Curve>& all, const std::string& style = {}, bool marks = true);

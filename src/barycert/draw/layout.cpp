@@ -141,6 +141,7 @@ private:
     }
 
     void draw_plane_axes(const std::array<std::array<double, 2>, 2>& ends, Pixel from, Pixel to) {
+        if (!std::isfinite(ends[0][1] - ends[0][0] + ends[1][1] - ends[1][0])) return;  // too wide for numbers
         const auto axis = [&](std::size_t k, double begin, double end, double room) {
             const auto [low, high] = ends[k];
             const bool turned = o_.axis_names[k].starts_with('-');

@@ -78,7 +78,7 @@ mesh::Part cells_of(const PageScene& scene) {
     std::vector<Mesh::Index> cells;
     for (const PageSurface& s : scene.surfaces)
         cells.insert(cells.end(), s.surface->mesh_cells.begin(), s.surface->mesh_cells.end());
-    for (std::size_t i = 0; scene.mesh->cell_count() <= most_page_cells && i < scene.mesh->cell_count(); ++i)
+    for (std::size_t i = 0; scene.mesh->cell_count() <= scene.most_cells && i < scene.mesh->cell_count(); ++i)
         cells.push_back(static_cast<Mesh::Index>(i));
     std::ranges::sort(cells);
     cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
@@ -153,7 +153,7 @@ std::string turning_figure(const PageScene& scene, std::string_view still) {
     std::array<double, 3> middle{}, sides{};
     for (std::size_t k = 0; k < d; ++k) {
         middle[k] = space.box[k].middle();
-        sides[k] = space.box[k].high - space.box[k].low;
+        sides[k] = 2 * (space.box[k].half() / space.half);
     }
     std::vector<Mesh::Index> numbers;
     for (const Mesh::Index cell : kept.cells) numbers.push_back(scene.mesh->cell_number(cell));

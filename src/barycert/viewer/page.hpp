@@ -6,9 +6,6 @@
 
 namespace barycert::viewer {
 
-/// With more cells a page has those alone that a surface lies in: then a plane shows no section.
-inline constexpr std::size_t most_page_cells = 50000;
-
 struct PageSurface {
     const Surface* surface = nullptr;  ///< of triangles, cut out of the mesh; of a mesh in the plane: its cells
     std::optional<Rgba> colour = {};   ///< without it, the field's
@@ -29,7 +26,8 @@ struct PageScene {
     std::string field = {};                                         ///< the one that is shown first
     Figure figure = {};                                             ///< the same as a picture
     std::vector<PageLabel> labels = {};
-    bool see_through = false;  ///< at first, what may be
+    bool see_through = false;        ///< at first, what may be
+    std::size_t most_cells = 50000;  ///< of more, those alone that a surface lies in; then a plane shows no section
 };
 
 /// A figure in HTML, well-formed XML: `still`, markup, which the viewer replaces where it runs. One a page.

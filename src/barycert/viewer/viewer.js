@@ -115,7 +115,7 @@ class Viewer {
     return this.points.subarray(3 * i, 3 * i + 3);
   }
   placed(p) {
-    return [0, 1, 2].map((k) => (p[k] - this.data.middle[k]) / this.data.half);
+    return [0, 1, 2].map((k) => p[k] / this.data.half - this.data.middle[k] / this.data.half);
   }
 
   /// The controls above the stage, the colour bar below it, and what a click tells; the still picture goes.
@@ -165,7 +165,7 @@ class Viewer {
     }
     this.camera = parallel || plane ? new THREE.OrthographicCamera() : new THREE.PerspectiveCamera(30);
     this.camera.up.set(...(plane ? [0, 1, 0] : [0, 0, 1]));
-    this.reach = Math.hypot(...this.data.sides) / this.data.half / 2;
+    this.reach = Math.hypot(...this.data.sides) / 2;
     const away = this.reach / Math.sin(Math.PI / 12);
     this.camera.position.set(...direction.map((x) => x * away));
     Object.assign(this.camera, { near: away / 100, far: 10 * away });
@@ -183,7 +183,7 @@ class Viewer {
   extent() {
     this.camera.lookAt(0, 0, 0);
     this.camera.updateMatrixWorld();
-    const half = this.data.sides.map((side) => side / this.data.half / 2);
+    const half = this.data.sides.map((side) => side / 2);
     return Math.max(...Array.from({ length: 8 }, (_, i) => {
       const corner = new THREE.Vector3(...half.map((h, k) => ((i >> k) & 1 ? h : -h))).project(this.camera);
       return Math.max(Math.abs(corner.x), Math.abs(corner.y));
@@ -210,7 +210,6 @@ class Viewer {
     });
     this.scene.add(...this.lines, (this.mark = new THREE.LineSegments()));
     this.mark.material = new THREE.LineBasicMaterial({ color: 0xe0103a, depthTest: false });
-    this.mark.visible = false;
   }
 
   /// The field's value at a point of a surface, which is on an edge of the mesh.
@@ -258,8 +257,7 @@ class Viewer {
   drop(mesh) {
     if (!mesh) return;
     this.scene.remove(mesh);
-    mesh.geometry.dispose();
-    mesh.material.dispose();
+    for (const part of [mesh.geometry, mesh.material]) part.dispose();
   }
 
   /// Where a value is in the texture: along the colours, or in the row for none.
@@ -298,7 +296,7 @@ class Viewer {
     this.section = this.plane = null;
     const name = this.side.value, k = "xyz".indexOf(name.at(-1));
     if (name !== "none") {
-      const sign = name[0] === "-" ? -1 : 1, side = this.data.sides[k] / this.data.half;
+      const sign = name[0] === "-" ? -1 : 1, side = this.data.sides[k];
       this.offset = (this.where.value / 1000 - 0.5) * side;
       this.plane = new THREE.Plane(new THREE.Vector3().setComponent(k, -sign), sign * this.offset);
       if (this.data.whole) this.addSection(k);

@@ -141,6 +141,7 @@ std::string picture_of(const CheckReport& r, const Mesh& mesh, const std::vector
     }
     scene.field = bad.cells.empty() ? fields[4].name : "";
     scene.see_through = !bad.cells.empty();
+    scene.most_cells = 10000;  // with six measures each
     return viewer::turning_figure(scene, markup);
 }
 
