@@ -177,10 +177,10 @@ void Plot::curves(const std::vector<Curve>& all, const std::string& style, bool 
     }
     for (std::size_t i = 0; i < all.size(); ++i) {
         const std::string own = fmt::format("k{}", i % max_curves);
-        picture.line({720, legend}, {748, legend}, fmt::format("{} {}", own, style));
-        if (marks) picture.mark({734, legend}, shapes[i % max_curves], 4, own);
-        picture.text({758, legend + 4}, all[i].name, "title");
-        if (!all[i].below.empty()) picture.text({758, legend + 20}, all[i].below, "small");
+        picture.line({x.to + 20, legend}, {x.to + 48, legend}, fmt::format("{} {}", own, style));
+        if (marks) picture.mark({x.to + 34, legend}, shapes[i % max_curves], 4, own);
+        picture.text({x.to + 58, legend + 4}, all[i].name, "title");
+        if (!all[i].below.empty()) picture.text({x.to + 58, legend + 20}, all[i].below, "small");
         legend += all[i].below.empty() ? 24 : 40;
     }
 }

@@ -80,7 +80,7 @@ public:
             refuse(job_.plot, "too many curves for a plot", fmt::format("at most {}", draw::max_curves),
                    std::to_string(all.size()), over_time ? "choose fewer points or fields" : "name some by job.fields");
         double beside = 0;  // the names in the legend
-        for (const Curve& c : all) beside = std::max(beside, draw::text_width(c.name, 12));
+        for (const Curve& c : all) beside = std::max(beside, draw::text_width(c.name, 13));
         Plot plot(job_.figure.title.empty() ? job_.mesh : job_.figure.title, 640, 400, 76 + beside, 64);
         fit(plot.x, all, &Pixel::x);
         fit(plot.y, all, &Pixel::y);
