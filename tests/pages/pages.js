@@ -64,6 +64,9 @@ function makePages() {
     plane: made("plane.html", ["check", mesh("plate")]),
     scene: made("scene.html", ["render", "mesh", mesh("cube-hole"), "--field", "attribute0", "--edges", "--view", "+x"],
       { option: "--output" }),
+    flat: made("flat.html", ["render", "mesh", mesh("plate"), "--field", "attribute0", "--outline"], { option: "--output" }),
+    part: made("part.html", ["render", "mesh", mesh("bracket"), "--threshold", "attribute0=2,8", "--field", "grad(attribute1).0",
+      "--unit", "K/m"], { option: "--output" }),
     verify: made("verify.html", ["verify", mesh("cube-hole"), "--results", nasty + ".csv"], { code: 1 }),
   };
 }
@@ -224,10 +227,39 @@ async function turning(opened, mesh) {
       await page.mouse.click(box.x + box.width / 2, box.y + box.height * 0.2);
       check(/^cell \d+ at \(0\.5/.test(await said()), `${where}: in the section: ${await said()}`);
       await page.getByRole("combobox", { name: /^Cut/ }).selectOption("none");
-      await page.getByRole("combobox", { name: /^Field/ }).selectOption("none");
-      check(!first.equals(await picture()), `${where}: keeps its colours`);
+      const coloured = await picture();
+      await page.getByRole("combobox", { name: /^Field/ }).selectOption({ index: 0 });
+      check(!coloured.equals(await picture()), `${where}: keeps its colours`);
     });
   }
+}
+
+/// A mesh in the plane moves where it is dragged. Of a part of a mesh cells and nodes have the numbers of the whole, from 0.
+async function turningOthers(opened, bracket) {
+  await opened("flat", { viewport: { width: 900, height: 900 } }, async (page, where) => {
+    const middle = () => page.evaluate(() => document.querySelector(".turning").viewer.pixelOf([1, 1, 0]));
+    const [before, box] = [await middle(), await page.locator(".turning canvas").boundingBox()];
+    await page.mouse.move(box.x + 300, box.y + 200);
+    await page.mouse.down();
+    await page.mouse.move(box.x + 350, box.y + 230, { steps: 5 });
+    await page.mouse.up();
+    const after = await middle();
+    check(Math.abs(after[0] - before[0] - 50) < 1 && Math.abs(after[1] - before[1] - 30) < 1, `${where}: ${before} to ${after}`);
+  });
+  await opened("part", { viewport: { width: 900, height: 900 } }, async (page, where) => {
+    const rows = rowsOf(bracket + ".ele"), nodes = rowsOf(bracket + ".node");
+    const { cells, names, numbers, points } = await page.evaluate(() => {
+      const { data } = document.querySelector(".turning").viewer, list = (name) => Array.from(data.arrays[data[name]]);
+      return { cells: list("cells"), names: list("nodes"), numbers: list("numbers"), points: list("points") };
+    });
+    check(numbers.length > 100 && numbers.length < rows.length, `${where}: ${numbers.length} cells`);
+    numbers.forEach((number, cell) => {
+      const file = rows[number].slice(1, 5).map((v) => v - 1), own = cells.slice(4 * cell, 4 * cell + 4);
+      check(own.every((v, i) => names[v] === file[i]), `${where}: cell ${number} has nodes ${own.map((v) => names[v])}, not ${file}`);
+      check(own.every((v) => [0, 1, 2].every((k) => points[3 * v + k] === nodes[names[v]][k + 1])), `${where}: places of ${number}`);
+    });
+    check((await page.locator(".bar").textContent()).startsWith("grad(attribute1).0 (K/m)"), `${where}: ${await page.locator(".bar").textContent()}`);
+  });
 }
 
 async function main() {
@@ -362,6 +394,7 @@ async function main() {
     check((await page.locator(".signs figure:first-child.exact").count()) === pictures.length, "no exact picture first");
   });
   await turning(opened, path.join(data, "meshes", "cube-hole"));
+  await turningOthers(opened, path.join(data, "meshes", "bracket"));
   // On paper nothing is left out that the screen has, nothing is cut off, and the ground is white.
   for (const name of Object.keys(pages)) {
     await opened(name, { viewport: { width: paperWidth, height: 1000 }, colorScheme: "dark" }, async (page, where) => {

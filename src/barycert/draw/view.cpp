@@ -59,8 +59,8 @@ Matrix4 fitting_camera(const Figure& figure, const Space& space, const ViewAxes&
         for (std::size_t k = 0; k < 3; ++k) along[k].add(dot(directions[k], at));
     });
     if (along[0].empty()) along = {Range{0, 0}, Range{0, 0}, Range{0, 0}};
-    const auto& [x, y, z] = along;
-    const auto& [r, u, t] = axes;
+    const Range &x = along[0], &y = along[1], &z = along[2];
+    const Vector3 &r = axes.right, &u = axes.up, &t = axes.towards;
     const FigureCamera& camera = figure.options.camera;
     Matrix4 projection;
     double distance = z.high + 0.1;

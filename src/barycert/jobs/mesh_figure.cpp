@@ -145,6 +145,7 @@ void MeshFigure::choose_cells() {
     if (cells.empty()) refuse("", "no cell is left to draw", "a threshold or box that leaves some", "none");
     mesh::Part part = mesh::part_of(mesh, std::move(cells));
     chosen_ = std::move(part.mesh);
+    nodes_ = part.nodes;
     if (chosen_.cell_numbers.empty()) chosen_.cell_numbers = part.cells;
     for (const Field& f : mesh.point_fields) chosen_.point_fields.push_back(mesh::rows_of(f, part.nodes));
     for (const Field& f : mesh.cell_fields) chosen_.cell_fields.push_back(mesh::rows_of(f, part.cells));
@@ -155,20 +156,25 @@ void MeshFigure::choose_cells() {
 CutOptions MeshFigure::carried() {
     CutOptions options{.threads = threads_};
     if (colours_.empty()) return options;
-    const FieldChoice found = field_of_numbers(*mesh_, colours_, made_, notes_);
-    (found.of_cells ? options.cell_fields : options.point_fields).push_back(found.field);
+    shown_ = field_of_numbers(*mesh_, colours_, made_, notes_);
+    (shown_.of_cells ? options.cell_fields : options.point_fields).push_back(shown_.field);
     return options;
 }
 
 viewer::PageScene MeshFigure::page(const FigureOptions& options) const {
     if (!figure_.arrows.empty() || options.labels)
         refuse("", "pages have neither arrows nor labels", "surfaces and lines", "", "name a .png, .svg or .pdf file");
-    viewer::PageScene scene{mesh_, drawn_, {}, {}, colours_, figure(options)};
+    viewer::PageScene scene{mesh_, drawn_, {}, {}, shown_.field, nodes_, figure(options)};
     const auto add = [](std::vector<const Field*>& to, const std::vector<Field>& fields) {
         for (const Field& f : fields) to.push_back(&f);
     };
     add(scene.point_fields, mesh_->point_fields);
     add(scene.cell_fields, mesh_->cell_fields);
+    std::vector<const Field*>& of = shown_.of_cells ? scene.cell_fields : scene.point_fields;
+    if (shown_.field != nullptr && std::ranges::count(of, shown_.field) == 0) of.push_back(shown_.field);
+    // A cut would show a section of all the mesh.
+    const bool some = show_.plane || !show_.slices.empty() || !show_.iso.empty() || !show_.marked.empty();
+    if (some || !show_.surface) scene.most_cells = 0;
     return scene;
 }
 
@@ -195,7 +201,10 @@ void MeshFigure::add_mesh() {
         const FieldChoice of = field_of_numbers(*mesh_, show_.iso_field, made_, notes_);
         if (of.of_cells) refuse("", "field \"" + show_.iso_field + "\" is one of cells", "a field of nodes", "");
         CutOptions carries = options;
-        if (colours_.empty()) carries.point_fields.push_back(of.field);
+        if (colours_.empty()) {
+            shown_ = of;
+            carries.point_fields.push_back(of.field);
+        }
         for (const double value : show_.iso)
             add_cut(isosurface(*mesh_, *of.field, value, carries).value().surface, "the iso-surface of a value");
     }

@@ -53,6 +53,8 @@ private:
     std::deque<std::vector<double>> numbers_;
     std::deque<std::vector<std::int32_t>> indices_;
     std::deque<Field> made_;
+    FieldChoice shown_;               ///< the field that colours
+    std::vector<Mesh::Index> nodes_;  ///< of the cells that are chosen, if not all are
     Figure figure_;
 };
 

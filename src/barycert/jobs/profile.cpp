@@ -81,7 +81,8 @@ public:
                    std::to_string(all.size()), over_time ? "choose fewer points or fields" : "name some by job.fields");
         double beside = 0;  // the names in the legend
         for (const Curve& c : all) beside = std::max(beside, draw::text_width(c.name, 13));
-        Plot plot(job_.figure.title.empty() ? job_.mesh : job_.figure.title, 640, 400, 76 + beside, 64);
+        Plot plot(job_.figure.title.empty() ? job_.mesh : job_.figure.title, std::max(640.0, 476 + beside), 400,
+                  76 + beside, 64);
         fit(plot.x, all, &Pixel::x);
         fit(plot.y, all, &Pixel::y);
         plot.x.title = over_time ? (report_.times.empty() ? "step" : "time") : "length from the first point";
@@ -156,9 +157,9 @@ namespace barycert {
 Status write_line_plot(const std::string& path, const Sampler& sampler, const PointLine& line,
                        const FigureOptions& options) try {
     const ExactEnvironment environment;
+    if (!is_figure_name(path)) jobs::refuse_output(path, ".png, .svg or .pdf");
     SampleJob job;
-    job.plot = path;
-    job.figure = options;
+    std::tie(job.plot, job.figure) = std::tie(path, options);
     std::vector<double> points;
     jobs::points_on(line)->read(static_cast<std::size_t>(line.count), points).value();
     Table rows = sampler.sample(points).value();

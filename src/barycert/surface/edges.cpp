@@ -16,8 +16,8 @@ std::vector<std::int32_t> outline_of(const Surface& boundary) {
             const auto point = static_cast<std::size_t>(boundary.cells[3 * static_cast<std::size_t>(triangle) + c]);
             std::copy_n(&boundary.points[3 * point], 3, p[c].begin());
         }
-        const Vector n = base::cross(base::minus(p[1], p[0]), base::minus(p[2], p[0]));
-        return n == Vector{} ? n : base::unit(n);
+        const auto unit = [](const Vector& v) { return v == Vector{} ? v : base::unit(v); };
+        return unit(base::cross(unit(base::minus(p[1], p[0])), unit(base::minus(p[2], p[0]))));
     };
     constexpr double bend = 0.866;  // cosine of 30 degrees
     std::vector<std::int32_t> segments;

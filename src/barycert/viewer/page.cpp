@@ -105,16 +105,20 @@ Json surface_json(const PageSurface& s, const mesh::Part& kept, PageData& data) 
 }
 
 void add_fields(const PageScene& scene, const mesh::Part& kept, PageData& data) {
-    data.header["fields"] = Json::array();
+    Json all = Json::array();
+    data.header["field"] = -1;
     for (const auto& [fields, rows, of_cells] :
          {std::tuple(&scene.point_fields, &kept.nodes, false), {&scene.cell_fields, &kept.cells, true}}) {
-        for (const Field* const f : *fields)
-            data.header["fields"].push_back({{"name", f->name},
-                                             {"unit", f->name == scene.field ? scene.figure.options.unit : ""},
-                                             {"components", f->components},
-                                             {"ofCells", of_cells},
-                                             {"values", data.add_exactly(mesh::rows_of(*f, *rows).data)}});
+        for (const Field* const f : *fields) {
+            if (f == scene.field) data.header["field"] = all.size();
+            all.push_back({{"name", f->name},
+                           {"unit", f == scene.field ? scene.figure.options.unit : ""},
+                           {"components", f->components},
+                           {"ofCells", of_cells},
+                           {"values", data.add_exactly(mesh::rows_of(*f, *rows).data)}});
+        }
     }
+    data.header["fields"] = std::move(all);
 }
 
 /// What runs the figure; behind it.
@@ -155,31 +159,32 @@ std::string turning_figure(const PageScene& scene, std::string_view still) {
         middle[k] = space.box[k].middle();
         sides[k] = 2 * (space.box[k].half() / space.half);
     }
-    std::vector<Mesh::Index> numbers;
+    std::vector<Mesh::Index> numbers, nodes = kept.nodes;
     for (const Mesh::Index cell : kept.cells) numbers.push_back(scene.mesh->cell_number(cell));
+    for (Mesh::Index& node : nodes)
+        if (!scene.nodes.empty()) node = scene.nodes[static_cast<std::size_t>(node)];
     h = {{"dimension", d},
          {"middle", middle},
          {"sides", sides},
          {"half", space.half},
          {"whole", mesh.cell_count() == scene.mesh->cell_count()},
-         {"base", scene.mesh->index_base},
          {"points", data.add(in_space(mesh.points, d))},
          {"cells", data.add(mesh.cells)},
-         {"nodes", data.add(kept.nodes)},
+         {"nodes", data.add(nodes)},
          {"numbers", data.add(numbers)}};
     h["told"] = Json::array();
     const auto tell = [&](bool so, std::string_view sentence) {
         if (so) h["told"].push_back(sentence);
     };
     tell(!h["whole"], "Cells inside are not on this page: a cut shows no section.");
-    tell(scene.mesh->shapes.count() != 0, "Weights are those of the simplex that the cell was cut into.");
+    tell(!scene.mesh->shapes.inside.empty(), "Weights are those of the simplex that the cell was cut into.");
     tell(curved_cells(*scene.mesh).cells != 0, "Sides of curved cells are taken as straight.");
     h["camera"] = {{"azimuth", o.camera.azimuth},
                    {"elevation", o.camera.elevation},
                    {"zoom", o.camera.zoom},
                    {"parallel", o.camera.parallel}};
     h["seeThrough"] = scene.see_through;
-    h["surfaces"] = h["lines"] = h["labels"] = Json::array();
+    for (const char* const list : {"surfaces", "lines", "labels"}) h[list] = Json::array();
     for (const PageLabel& l : scene.labels) h["labels"].push_back({{"at", l.at}, {"text", l.text}, {"bad", l.bad}});
     for (const PageSurface& s : scene.surfaces) h["surfaces"].push_back(surface_json(s, kept, data));
     for (const FigureLines& l : scene.figure.lines) {
@@ -190,7 +195,6 @@ std::string turning_figure(const PageScene& scene, std::string_view still) {
             {{"points", data.add(points)}, {"segments", data.add(std::vector(l.segments.begin(), l.segments.end()))}});
     }
     add_fields(scene, kept, data);
-    h["field"] = scene.field;
     if (o.range) h["range"] = *o.range;
     h["log"] = o.log;
     const ColourMap map = colour_map(o.colour_map).value();
@@ -205,8 +209,8 @@ Status write_page(const std::string& path, const PageScene& scene, FigureCounts&
     const ExactEnvironment environment;
     const Result<Image> image = draw_figure(scene.figure, &counts);
     if (!image) return image.error();
-    const std::string title =
-        xml_escaped(scene.figure.options.title.empty() ? scene.field : scene.figure.options.title);
+    const std::string& given = scene.figure.options.title;
+    const std::string title = given.empty() ? "A mesh" : xml_escaped(given);
     const std::string picture = fmt::format("<img alt=\"{}\" src=\"{}\" width=\"{}\" height=\"{}\"/>", title,
                                             data_uri("image/png", png_text(*image)), image->width, image->height);
     base::OutputFile file(path);

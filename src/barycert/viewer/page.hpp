@@ -23,7 +23,8 @@ struct PageScene {
     const Mesh* mesh = nullptr;  ///< its cells are numbered as cell_number says
     std::vector<PageSurface> surfaces = {};
     std::vector<const Field*> point_fields = {}, cell_fields = {};  ///< to choose from
-    std::string field = {};                                         ///< the one that is shown first
+    const Field* field = nullptr;                                   ///< of these: the one that is shown first
+    std::vector<Mesh::Index> nodes = {};                            ///< their numbers, if not their own
     Figure figure = {};                                             ///< the same as a picture
     std::vector<PageLabel> labels = {};
     bool see_through = false;        ///< at first, what may be

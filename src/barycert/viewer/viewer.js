@@ -57,15 +57,12 @@ function unpacked(buffer) {
   return header;
 }
 
-/// Fields by what is shown of them: components, and the lengths of vectors.
+/// Fields by their components.
 function choicesOf(data) {
-  return data.fields.flatMap((field) => {
+  return data.fields.flatMap((field, of) => {
     const values = data.arrays[field.values], c = field.components;
-    const choice = (name, at) => ({ name, unit: field.unit, ofCells: field.ofCells, at });
-    if (c === 1) return [choice(field.name, (i) => values[i])];
-    const length = (i) => Math.hypot(...values.subarray(c * i, c * i + c));
-    return [choice(`|${field.name}|`, length),
-      ...Array.from({ length: c }, (_, k) => choice(`${field.name}.${k}`, (i) => values[c * i + k]))];
+    return Array.from({ length: c }, (_, k) => ({
+      ...field, of, name: c === 1 ? field.name : `${field.name}.${k}`, rows: values.length / c, at: (i) => values[c * i + k] }));
   });
 }
 
@@ -77,7 +74,7 @@ class Viewer {
     this.cells = data.arrays[data.cells];
     this.corners = data.dimension + 1;
     this.choices = choicesOf(data);
-    this.choice = this.choices.find((c) => c.name === data.field) || null;
+    this.choice = this.choices.find((c) => c.of === data.field) || null;
     this.surfaces = data.surfaces.map((s) => this.surfaceOf(s));
     this.renderer = new THREE.WebGLRenderer({ antialias: true, alpha: true, preserveDrawingBuffer: true });
     this.layOut();
@@ -91,8 +88,10 @@ class Viewer {
     this.setCamera();
     this.colour();
     new ResizeObserver(() => this.resize()).observe(this.stage);
-    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.draw());
-    this.renderer.domElement.addEventListener("pointerdown", (e) => (this.down = [e.clientX, e.clientY]));
+    addEventListener("resize", () => this.resize());
+    for (const what of ["(prefers-color-scheme: dark)", "print"]) matchMedia(what).addEventListener("change", () => this.draw());
+    this.renderer.domElement.addEventListener("pointerdown", (e) =>
+      (this.down = e.isPrimary && e.button === 0 ? [e.clientX, e.clientY] : null));
     this.renderer.domElement.addEventListener("pointerup", (e) => {
       if (this.down && Math.hypot(e.clientX - this.down[0], e.clientY - this.down[1]) < 5) this.pick(e.clientX, e.clientY);
     });
@@ -128,7 +127,7 @@ class Viewer {
     for (const part of all.querySelectorAll("[name]")) this[part.name] = part;
     for (const name of ["stage", "bar", "said"]) this[name] = all.querySelector("." + name);
     this.field.append(...["none", ...this.choices.map((c) => c.name)].map((text) => new Option(text)));
-    this.field.value = this.choice ? this.choice.name : "none";
+    this.field.selectedIndex = this.choices.indexOf(this.choice) + 1;
     this.side.append(...["none", "x", "-x", "y", "-y", "z", "-z"].map((text) => new Option(text)));
     this.through.checked = data.seeThrough;
     this.field.parentElement.hidden = !this.choices.length;
@@ -136,7 +135,7 @@ class Viewer {
     this.edges.parentElement.hidden = !data.lines.length;
     this.through.parentElement.hidden = !data.surfaces.some((s) => s.clear);
     this.field.addEventListener("change", () => {
-      this.choice = this.choices.find((c) => c.name === this.field.value) || null;
+      this.choice = this.choices[this.field.selectedIndex - 1] || null;
       this.colour();
       if (this.picked) this.tell();
     });
@@ -172,7 +171,8 @@ class Viewer {
     this.camera.add(this.light, this.light.target);
     this.scene.add(this.camera);
     this.controls = new THREE.OrbitControls(this.camera, this.renderer.domElement);
-    this.controls.enableRotate = !plane;
+    // In the plane what turns in space moves.
+    if (plane) Object.assign(this.controls, { enableRotate: false, mouseButtons: { LEFT: 2, MIDDLE: 1, RIGHT: 2 }, touches: { ONE: 1, TWO: 2 } });
     this.controls.addEventListener("change", () => this.draw());
     this.resize();
     this.camera.zoom = (0.96 * zoom) / this.extent();  // what is in sight fills the stage
@@ -223,13 +223,11 @@ class Viewer {
   /// The meshes of three.js, in the colours of the field that is chosen.
   colour() {
     const { data } = this;
-    const given = this.choice && this.choice.name === data.field ? data.range : null;
+    const given = this.choice && this.choice.of === data.field ? data.range : null;
     let low = Infinity, high = -Infinity;
-    for (const s of this.choice && !given ? this.surfaces : []) {
-      for (let i = 0; i < s.triangles.length; ++i) {
-        const x = this.valueAt(s, s.triangles[i], s.cells[Math.floor(i / 3)]);
-        if (Number.isFinite(x) && (!data.log || x > 0)) [low, high] = [Math.min(low, x), Math.max(high, x)];
-      }
+    for (let i = 0; this.choice && i < this.choice.rows; ++i) {
+      const x = this.choice.at(i);
+      if (Number.isFinite(x) && (!data.log || x > 0)) [low, high] = [Math.min(low, x), Math.max(high, x)];
     }
     [this.low, this.high] = given || [low, high];
     const pixels = new Uint8Array(4 * 512);
@@ -237,16 +235,16 @@ class Viewer {
       pixels.set([...data.map.slice(3 * i, 3 * i + 3), 255], 4 * i);
       pixels.set([...(this.choice ? [150, 150, 150] : [200, 204, 208]), 255], 4 * (256 + i));
     }
+    if (this.map) this.map.dispose();
     this.map = new THREE.DataTexture(pixels, 256, 2);
     this.map.colorSpace = THREE.SRGBColorSpace;
     this.map.needsUpdate = true;
     for (const s of this.surfaces) {
       this.drop(s.mesh);
       const numbers = s.triangles.length, corners = { positions: new Float32Array(3 * numbers), uv: new Float32Array(2 * numbers) };
-      for (let i = 0; i < numbers; ++i) {
-        corners.positions.set(this.placed(s.at(s.triangles[i])), 3 * i);
-        corners.uv.set(this.place(this.valueAt(s, s.triangles[i], s.cells[Math.floor(i / 3)])), 2 * i);
-      }
+      for (let i = 0; i < numbers; ++i) corners.positions.set(this.placed(s.at(s.triangles[i])), 3 * i);
+      for (let i = 0; i < numbers; i += 3)
+        corners.uv.set(this.place([0, 1, 2].map((k) => this.valueAt(s, s.triangles[i + k], s.cells[i / 3]))), 2 * i);
       s.mesh = this.meshOf(corners, s);
       this.scene.add(s.mesh);
     }
@@ -260,11 +258,11 @@ class Viewer {
     for (const part of [mesh.geometry, mesh.material]) part.dispose();
   }
 
-  /// Where a value is in the texture: along the colours, or in the row for none.
-  place(x) {
-    const f = this.data.log ? Math.log : (y) => y, [y, low, high] = [x, this.low, this.high].map(f);
-    if (!Number.isFinite(y)) return [0.5, 0.75];
-    return [high > low ? Math.max(0, Math.min((y - low) / (high - low), 1)) : 0.5, 0.25];
+  /// Where values are in the texture: along the colours, or in the row for none, if one has none.
+  place(values) {
+    const f = this.data.log ? Math.log : (y) => y, [low, high, ...all] = [this.low, this.high, ...values].map(f);
+    if (!all.every(Number.isFinite)) return all.flatMap(() => [0.5, 0.75]);
+    return all.flatMap((y) => [high > low ? Math.max(0, Math.min((y - low) / (high - low), 1)) : 0.5, 0.25]);
   }
 
   meshOf({ positions, uv }, { colour, clear }) {
@@ -320,11 +318,10 @@ class Viewer {
         return { at: [0, 1, 2].map((j) => mixed((n) => this.points[3 * n + j])), value };
       }));
       for (let i = 1; i + 1 < ring.length; ++i) {
-        for (const p of [ring[0], ring[i], ring[i + 1]]) {
-          positions.push(...this.placed(p.at));
-          uv.push(...this.place(p.value));
-        }
-        owners.push({ cell, corners: [ring[0].at, ring[i].at, ring[i + 1].at] });
+        const three = [ring[0], ring[i], ring[i + 1]];
+        positions.push(...three.flatMap((p) => this.placed(p.at)));
+        uv.push(...this.place(three.map((p) => p.value)));
+        owners.push({ cell, corners: three.map((p) => p.at) });
       }
     }
     const mesh = this.meshOf({ positions: new Float32Array(positions), uv: new Float32Array(uv) }, {});
@@ -366,9 +363,7 @@ class Viewer {
       cell: from.cells[hit.faceIndex],
       corners: [0, 1, 2].map((i) => Array.from(from.at(from.triangles[3 * hit.faceIndex + i]))),
     };
-    const weights = new THREE.Vector3();
-    THREE.Triangle.getBarycoord(hit.point, ...corners.map((p) => new THREE.Vector3(...this.placed(p))), weights);
-    const w = weights.toArray();
+    const w = THREE.Triangle.getBarycoord(hit.point, ...corners.map((p) => new THREE.Vector3(...this.placed(p))), new THREE.Vector3()).toArray();
     return { cell, point: [0, 1, 2].map((k) => w[0] * corners[0][k] + w[1] * corners[1][k] + w[2] * corners[2][k]) };
   }
 
@@ -376,16 +371,17 @@ class Viewer {
     this.mark.visible = Boolean(this.picked);
     this.said.textContent = this.picked ? "" : "There is nothing.";
     if (this.picked) {
-      const { cell, point } = this.picked, n = this.corners, base = this.data.base;
+      const { cell, point } = this.picked, n = this.corners;
       const nodes = Array.from(this.cells.subarray(n * cell, n * cell + n));
+      this.mark.geometry.dispose();
       this.mark.geometry = new THREE.BufferGeometry().setFromPoints(nodes.flatMap((a, i) => nodes.slice(i + 1).flatMap((b) =>
         [a, b].map((v) => new THREE.Vector3(...this.placed(this.node(v)))))));
       const answer = this.answerAt(cell, point);
       const number = this.data.arrays[this.data.numbers], name = this.data.arrays[this.data.nodes];
       const say = (...parts) => this.said.append(Object.assign(document.createElement("p"), { textContent: parts.join("") }));
-      say("cell ", number[cell] + base, " at (", point.slice(0, this.data.dimension).join(", "), ")");
+      say("cell ", number[cell], " at (", point.slice(0, this.data.dimension).join(", "), ")");
       if (!answer) say("it has no weights: the cell is degenerate");
-      else say("weights ", nodes.map((v, i) => `${answer.weights[i]} of node ${name[v] + base}`).join(", "));
+      else say("weights ", nodes.map((v, i) => `${answer.weights[i]} of node ${name[v]}`).join(", "));
       if (this.choice && answer) say(this.choice.name, " = ", answer.value, this.choice.unit ? ` ${this.choice.unit}` : "");
     }
     this.draw();
@@ -399,8 +395,9 @@ class Viewer {
     const { numerators, denominator } = exact, of = this.choice;
     const values = !of ? [] : of.ofCells ? [of.at(cell)] : nodes.map((v) => of.at(v));
     let value = of && of.ofCells ? values[0] : NaN;
-    if (of && !of.ofCells && values.every(Number.isFinite)) {
-      const { all, exponent } = integers(values);
+    // A node without a weight takes no part.
+    if (of && !of.ofCells && values.every((x, i) => numerators[i] === 0n || Number.isFinite(x))) {
+      const { all, exponent } = integers(values.map((x) => (Number.isFinite(x) ? x : 0)));
       value = nearest(numerators.reduce((sum, n, i) => sum + n * all[i], 0n), denominator, exponent);
     }
     return { weights: numerators.map((n) => nearest(n, denominator)), value };
@@ -415,7 +412,7 @@ class Viewer {
 
 document.head.append(Object.assign(document.createElement("style"), { textContent: `
 .turning .tools{display:flex;flex-wrap:wrap;gap:6px 14px;align-items:center;margin:4px 0}
-.turning .tools *{font:inherit}.turning .tools button{border:1px solid;border-radius:4px;padding:1px 10px;cursor:pointer}
+.turning .tools *{font:inherit;max-width:100%}.turning .tools button{border:1px solid;border-radius:4px;padding:1px 10px;cursor:pointer}
 .turning .stage{position:relative;overflow:hidden}.turning .stage span{position:absolute;pointer-events:none;font-weight:bold;
  transform:translate(-50%,-50%);padding:0 5px;border-radius:9px;background:#0072b2;color:#fff;font-size:12px}
 .turning .stage .bad{background:#c8102e}

@@ -431,8 +431,8 @@ class Mesh(GivenBack):
         """Fields over the length from point a to point b, a curve each; broken outside the mesh.
 
         Args:
-            fields: as for `sample`, 12 components at most. count: points on the line.
-            title, unit, size, background: as for `plot`.
+            fields: as for `sample`, 6 components at most. count: points on the line.
+            title, unit, background, resolution: as for `plot`.
         """
         names = [] if fields is None else [fields] if isinstance(fields, str) else list(fields)
         ends, _ = points_of(np.stack([np.asarray(a, float), np.asarray(b, float)]), self.dimension)

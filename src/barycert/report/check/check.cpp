@@ -1,6 +1,5 @@
 // What a check of a mesh found, for people.
 
-#include "barycert/io/png/png_file.hpp"
 #include "barycert/report/check/check_pictures.hpp"
 #include "barycert/report/check/check_words.hpp"
 #include "barycert/report/common/document.hpp"
@@ -313,23 +312,12 @@ Document fix_document(const FixedMesh& fixed) {
 std::string surface_figure(const CheckReport& r, const Surface& surface) {
     const Result<Image> image = draw_checked(r, surface);
     if (!image) return "";
-    std::map<Rgba, std::uint8_t> indices;
-    std::vector<io::Colour> colours;
-    std::vector<std::uint8_t> pixels;
-    for (std::int32_t j = image->height; j-- > 0;) {  // from the top
-        for (std::int32_t i = 0; i < image->width; ++i) {
-            const Rgba c = image->pixel(i, j);
-            const auto [at, is_new] = indices.try_emplace(c, static_cast<std::uint8_t>(colours.size()));
-            if (is_new) colours.push_back({c[0], c[1], c[2]});
-            pixels.push_back(at->second);
-        }
-    }
     const bool marked = std::ranges::any_of(r.measures.defects, [](DefectSet d) { return d != 0; });
     return fmt::format(
         "<figure><img src=\"{}\" alt=\"the surface from two sides\" width=\"{}\" height=\"{}\"/>\n"
         "<figcaption>From in front and from behind.{}</figcaption></figure>\n",
-        data_uri("image/png", io::indexed_png(static_cast<std::size_t>(image->width), pixels, colours).value()),
-        image->width, image->height, marked ? " Red: triangles with defects." : "");
+        data_uri("image/png", png_text(*image)), image->width, image->height,
+        marked ? " Red: triangles with defects." : "");
 }
 
 Document check_document(const CheckReport& r, const Mesh& mesh, const std::string& name, const FixedMesh* fixed,

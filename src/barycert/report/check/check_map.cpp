@@ -19,7 +19,6 @@ Mesh proper_cells(const CheckReport& r, const Mesh& mesh, std::vector<Mesh::Inde
     Mesh proper;
     proper.dimension = mesh.dimension;
     proper.points = mesh.points;
-    proper.index_base = mesh.index_base;
     for (std::size_t cell = 0; cell < mesh.cell_count(); ++cell) {
         const auto all = mesh.corners_of(cell);
         const bool twice = std::ranges::any_of(all, [&](Mesh::Index i) { return std::ranges::count(all, i) != 1; });
@@ -134,12 +133,11 @@ std::string picture_of(const CheckReport& r, const Mesh& mesh, const std::vector
     if (!turns) return markup;
     std::deque<Field> fields;
     for (Measure& m : measures_of(r)) {
-        for (double& x : m.values) x = static_cast<float>(x);  // as much as colours show
         const Field& f = fields.emplace_back(Field{m.name, 1, std::move(m.values)});
         if (!all) fields.back() = mesh::rows_of(f, rows);
         scene.cell_fields.push_back(&fields.back());
     }
-    scene.field = bad.cells.empty() ? fields[4].name : "";
+    if (bad.cells.empty()) scene.field = &fields[4];
     scene.see_through = !bad.cells.empty();
     scene.most_cells = 10000;  // with six measures each
     return viewer::turning_figure(scene, markup);
