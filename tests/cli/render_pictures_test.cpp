@@ -337,8 +337,8 @@ TEST(RenderPictures, NumbersOfScenesThatHurtButCanBeDrawn) {
 }
 
 /// The pictures of the documents are those that their commands draw, where these need no other files: no component is
-/// off by more than one step, but in one pixel of a thousand, for tangent and sine may differ from machine to machine in
-/// their last bit, and so may a centre's side of an edge.
+/// off by more than one step, but in one pixel of a thousand, for tangent and sine may differ from machine to machine
+/// in their last bit, and so may a centre's side of an edge.
 TEST(RenderPictures, AreThoseOfTheDocuments) {
     const Scratch scratch;
     std::size_t count = 0;
@@ -356,7 +356,8 @@ TEST(RenderPictures, AreThoseOfTheDocuments) {
             if (contains(line, "mesh broken") || contains(line, "turning.txt")) continue;
             ++count;
             const std::string command = line.substr(begin.size(), output - begin.size());
-            const Ended r = run_shell("cd " BARYCERT_DATA_DIR "/.. && barycert " + command + " --quiet --output " + path);
+            const Ended r =
+                run_shell("cd " BARYCERT_DATA_DIR "/.. && barycert " + command + " --quiet --output " + path);
             ASSERT_EQ(r.code, 0) << r.err;
             const Image drawn = read_png(path).value(), kept = read_png(golden).value();
             ASSERT_EQ(drawn.width, kept.width);
