@@ -36,8 +36,8 @@ private:
 
 /// A column: the numbers numbers[step * i], or a label; neither of one that is not read.
 struct Place {
-    const double* numbers = nullptr;
-    std::size_t step = 0;
+    const std::vector<double>* numbers = nullptr;
+    std::size_t first = 0, step = 0;
     Column* label = nullptr;
 };
 
@@ -82,17 +82,16 @@ Source points_of_table(PointTable table, const std::string& file, int dimension,
         all.names.push_back(std::move(name));
         places.push_back(place);
     };
-    for (std::size_t axis = 0; axis < size; ++axis)
-        add(std::string(1, "xyz"[axis]), {table.points.data() + axis, size});
+    for (std::size_t axis = 0; axis < size; ++axis) add(std::string(1, "xyz"[axis]), {&table.points, axis, size});
     for (const Field& field : table.fields) {
         const std::vector<std::string> names = column_names({{field.name, field.components}});
-        for (std::size_t c = 0; c < names.size(); ++c) add(names[c], {field.data.data() + c, names.size()});
+        for (std::size_t c = 0; c < names.size(); ++c) add(names[c], {&field.data, c, names.size()});
     }
     for (Column& label : table.labels) add(label.name, {.label = &label});
     for (const std::string& name : table.unread) add(name, {});
 
     PointColumns chosen = choose_columns(all, dimension, options);
-    const auto number = [](const Place& place, std::size_t i) { return place.numbers[place.step * i]; };
+    const auto number = [](const Place& p, std::size_t i) { return (*p.numbers)[p.first + p.step * i]; };
     const std::size_t count = table.points.size() / size, d = chosen.axes.size();
     std::vector<double> points(d * count);
     for (std::size_t axis = 0; axis < d; ++axis) {
