@@ -209,8 +209,7 @@ Status write_page(const std::string& path, const PageScene& scene, FigureCounts&
     const ExactEnvironment environment;
     const Result<Image> image = draw_figure(scene.figure, &counts);
     if (!image) return image.error();
-    const std::string& given = scene.figure.options.title;
-    const std::string title = given.empty() ? "A mesh" : xml_escaped(given);
+    const std::string title = xml_escaped(scene.figure.options.title.empty() ? "A mesh" : scene.figure.options.title);
     const std::string picture = fmt::format("<img alt=\"{}\" src=\"{}\" width=\"{}\" height=\"{}\"/>", title,
                                             data_uri("image/png", png_text(*image)), image->width, image->height);
     base::OutputFile file(path);

@@ -588,11 +588,11 @@ private:
 
     /// Fields in a file of their own are read where they are named.
     void note_solution_beside() {
-        for (const char* suffix : {".sol", ".solb"}) {
+        std::ranges::for_each(std::array{".sol", ".solb"}, [&](const char* suffix) {
             const std::string path = std::filesystem::path(without_gz(file_.path())).replace_extension(suffix).string();
             if (exists(path))
                 note(Note::Kind::left_out, "the fields of " + path + ", unless it is named: --field NAME=" + path);
-        }
+        });
     }
 
     const MeditFile& file_;

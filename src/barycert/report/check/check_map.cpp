@@ -127,7 +127,7 @@ std::string picture_of(const CheckReport& r, const Mesh& mesh, const std::vector
     }
     FigureCounts counts;
     const Result<Picture> still = laid_out(scene.figure, 1, counts);
-    const std::string markup = still ? svg_markup(*still) : "";
+    std::string markup = still ? svg_markup(*still) : "";
     constexpr std::size_t most_triangles = 200000;
     turns = scene.surfaces.front().surface->cell_count() <= most_triangles;
     if (!turns) return markup;
