@@ -56,6 +56,7 @@ OutArray array_of_points(std::span<const double> points, int dimension);
 
 inline std::vector<OutArray> arrays_of(const std::vector<Field>& fields) {
     std::vector<OutArray> arrays;
+    arrays.reserve(fields.size());
     for (const Field& f : fields) arrays.push_back(array_in_memory<double>(f.name, f.data, f.components));
     return arrays;
 }
