@@ -43,7 +43,7 @@ TypeCounts count_types(const RawGrid& grid) {
 }
 
 /// Makes triangles of all polygons in space, by their corners, where there are no cells that fill it.
-void cut_polygons(RawGrid& grid, const TypeCounts& counts, const std::string& path, InSpace& space) {
+void cut_polygons(RawGrid& grid, const TypeCounts& counts, const std::string& path, InSpace& space, Notes& notes) {
     std::size_t polygons = 0;
     for (std::size_t type = 0; type < counts.size(); ++type) {
         const CellKind kind = cell_types()[type].kind;
@@ -71,7 +71,7 @@ void cut_polygons(RawGrid& grid, const TypeCounts& counts, const std::string& pa
     }
     if (rows.empty()) return;
     const auto note = [&](std::size_t count, const char* what, Note::Kind kind) {
-        if (count != 0) grid.notes.push_back({kind, std::to_string(count) + what, path, true});
+        if (count != 0) notes.push_back({kind, std::to_string(count) + what, path, true});
     };
     note(polygons, " polygons, which are cut into triangles of their corners", Note::Kind::converted);
     note(by_corners, " polygons of a higher order: they are taken by their corners", Note::Kind::converted);
@@ -224,7 +224,7 @@ void make_field(RawArray& array) {
 /// The cells that make a mesh, and their points; the rows of the other cells go.
 void take_cells(RawGrid& grid, const std::string& path, InSpace* space, Mesh& mesh) {
     check_cells(grid, path);
-    if (space != nullptr) cut_polygons(grid, count_types(grid), path, *space);
+    if (space != nullptr) cut_polygons(grid, count_types(grid), path, *space, mesh.notes);
     const TypeCounts counts = count_types(grid);
     mesh.dimension = choose(counts, grid, path);
     // Simplices of one type are the mesh's cells themselves.
