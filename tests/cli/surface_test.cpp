@@ -293,5 +293,14 @@ TEST(SurfaceCommands, TrianglesInSpaceInFilesOfMeshes) {
     EXPECT_TRUE(contains(r.out, "0.25,0.25,-2,0,face")) << r.out;
 }
 
+TEST(SurfaceCommands, ToldThatPolygonsAreCut) {
+    const Scratch scratch;
+    const std::string square = scratch.put("q.vtk",
+                                           "# vtk DataFile Version 3.0\nq\nASCII\nDATASET POLYDATA\nPOINTS 4 "
+                                           "double\n0 0 0 1 0 0 1 1 0.5 0 1 0\nPOLYGONS 1 5\n4 0 1 2 3\n");
+    const Ended r = run({"check", square});
+    EXPECT_TRUE(contains(r.out, "1 polygons, which are cut into triangles of their corners")) << r.out;
+}
+
 }  // namespace
 }  // namespace barycert::cli_test
