@@ -181,7 +181,7 @@ struct SampleReport : MeshReport {
 /// Return an Error, and write nothing, if the job contradicts itself, an input cannot be read, an output is an input or
 /// cannot be written, or the policy for points outside is `error` and a point is outside.
 Result<SampleReport> sample_files(const SampleJob& job);
-/// The plot alone, of what a sampler has: columns of no more than twelve.
+/// The plot alone, of what a sampler has: six columns at most.
 Status write_line_plot(const std::string& path, const Sampler& sampler, const PointLine& line,
                        const FigureOptions& options);
 Result<SampleReport> resample_files(const ResampleJob& job);

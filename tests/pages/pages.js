@@ -1,4 +1,4 @@
-// The HTML pages of audit, check and verify in Chromium.
+// The HTML pages of audit, check, verify and render in Chromium.
 //
 //   node pages.js PROGRAM DATA FOLDER CHROMIUM
 //

@@ -66,7 +66,8 @@ void sample_reports(Schema& schema) {
     run.notes = {{Note::Kind::guessed, "the order", "a file"}};
     run.not_finite = {{"t", true, 3, 50}};
     for (const double low : {0.25, std::numeric_limits<double>::quiet_NaN()}) {
-        run.picture = FigureCounts{.size = {}, .render = {}, .low = low, .high = low, .below = 1, .above = 2, .grid = {.drawn = 3}};
+        run.picture = FigureCounts{
+            .size = {}, .render = {}, .low = low, .high = low, .below = 1, .above = 2, .grid = {.drawn = 3}};
         schema.check("Sample", Json::parse(sample_json(run, measure_environment())), "sample");
         run.from = PointsFrom::mesh;
         run.simplices = 6;

@@ -1,4 +1,4 @@
-/// Seeded random numbers that are the same on every machine.
+/// Seeded random numbers that are the same on every machine; hashes of words, texts and places.
 ///
 /// The standard library's distributions differ between implementations, so both the generator and the maps to
 /// doubles stand here. Counter-based use: stream(seed, a, b) is independent of every other (a, b), so that case

@@ -79,6 +79,8 @@ inline Error not_finite_error(Simplex s, const double* vertices, const double* p
     return base::not_finite(which + "coordinate " + std::to_string(k) + " of the point", point[k]);
 }
 
+// The driver.
+
 /// Cases of a block. Gathered tetrahedra take 16 KiB: they stay in the nearest cache, together with what goes out.
 inline constexpr std::size_t block_size = 128;
 

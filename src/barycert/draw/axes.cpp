@@ -193,7 +193,7 @@ void Plot::entry(std::string style, std::string what) {
 
 void Plot::notes(const std::vector<std::string>& lines) {
     for (std::size_t i = 0; i < lines.size(); ++i)
-        picture.text({70, 568 + 18 * static_cast<double>(i)}, lines[i], "small");
+        picture.text({70, y.from + 68 + 18 * static_cast<double>(i)}, lines[i], "small");
 }
 
 }  // namespace barycert::draw

@@ -1,10 +1,8 @@
-
 #include <algorithm>
 
 #include "barycert/draw/figure_values.hpp"
 #include "barycert/draw/files.hpp"
 #include "barycert/draw/layout.hpp"
-#include "barycert/environment.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/png/png_file.hpp"
 

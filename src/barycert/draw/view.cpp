@@ -2,7 +2,6 @@
 
 #include <numbers>
 
-#include "barycert/base/arena.hpp"
 #include "barycert/base/finite.hpp"
 #include "barycert/base/strict_math.hpp"
 #include "barycert/base/vectors.hpp"

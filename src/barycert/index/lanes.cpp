@@ -14,6 +14,8 @@ namespace barycert::index::HWY_NAMESPACE {
 
 using namespace core::HWY_NAMESPACE;
 
+// Boxes that meet.
+
 void meeting_pairs(const BoxGroups& boxes, std::size_t g, const BoxGroups::TakePairs& take) {
     std::array<FacetPair, 256> pairs;
     std::size_t count = 0;
@@ -59,6 +61,8 @@ void meeting_pairs(const BoxGroups& boxes, std::size_t g, const BoxGroups::TakeP
     }
     take(std::span(pairs).first(count));
 }
+
+// Orientations of cells.
 
 /// The determinant of the edges from the last vertex where its sign is certain, else 0: a numerator of filter-inl.hpp
 /// with that vertex as its point, and with the bound of one.
@@ -115,6 +119,8 @@ void filter_orientations(const CellIndex& index, std::size_t first, std::size_t 
     index.simplex == Simplex::triangle ? filter_cells<Simplex::triangle>(cells, index.nodes.data(), count, out)
                                        : filter_cells<Simplex::tetrahedron>(cells, index.nodes.data(), count, out);
 }
+
+// Facets that are apart.
 
 /// The plane of a triangle: a corner, the edges from there to the others, and what a determinant needs of these.
 template <class V>

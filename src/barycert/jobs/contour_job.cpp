@@ -8,7 +8,6 @@
 #include "barycert/base/input_file.hpp"
 #include "barycert/base/strict_math.hpp"
 #include "barycert/base/vectors.hpp"
-#include "barycert/environment.hpp"
 #include "barycert/index/box_tree.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/jobs/field_files.hpp"

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "barycert/base/range.hpp"
 #include "barycert/base/strict_math.hpp"
 #include "barycert/base/vectors.hpp"
 #include "barycert/io/formats.hpp"
@@ -215,18 +216,14 @@ void MeshFigure::add_mesh() {
                "leave one of them out");
     if (show_.surface && !others) {
         Surface whole = plane ? cells_of(*mesh_, options) : boundary(*mesh_, options).value();
-        show_.plane ? add_cut_open(whole) : add(std::move(whole));
+        add(show_.plane ? behind(whole, *show_.plane) : std::move(whole));
+        if (show_.plane) add(slice(*mesh_, *show_.plane, options).value().surface);
     }
     if (!show_.marked.empty()) add_marked();
     if (!show_.arrows.empty()) add_arrows();
     if (show_.outline || !show_.marked.empty()) add_outline();
     if (figure_.surfaces.empty() && figure_.lines.empty() && figure_.arrows.empty())
         refuse("", "nothing to draw", "a surface, lines or arrows", "none of these");
-}
-
-void MeshFigure::add_cut_open(const Surface& whole) {
-    add(behind(whole, *show_.plane));
-    add(slice(*mesh_, *show_.plane, carried()).value().surface);
 }
 
 void MeshFigure::add_cut(Surface surface, const char* what) {
@@ -304,26 +301,20 @@ void MeshFigure::add_outline() {
 
 /// Cells by their numbers in the file, whole.
 void MeshFigure::add_marked() {
+    const std::set marked(show_.marked.begin(), show_.marked.end());
+    std::set missing = marked;
     std::vector<Mesh::Index> cells;
-    std::vector<Mesh::Index> marked = show_.marked, found;
-    std::ranges::sort(marked);
-    for (std::size_t i = 0; i < mesh_->cell_count(); ++i) {
-        if (std::ranges::binary_search(marked, mesh_->cell_number(static_cast<Mesh::Index>(i))))
-            cells.push_back(static_cast<Mesh::Index>(i));
+    for (Mesh::Index i = 0; static_cast<std::size_t>(i) < mesh_->cell_count(); ++i) {
+        if (!marked.contains(mesh_->cell_number(i))) continue;
+        missing.erase(mesh_->cell_number(i));
+        cells.push_back(i);
     }
-    for (const Mesh::Index cell : cells) found.push_back(mesh_->cell_number(cell));
-    std::ranges::sort(found);
-    for (const Mesh::Index number : marked)
-        if (!std::ranges::binary_search(found, number))
-            refuse("", "no such cell to mark", "numbers of cells that are drawn, as they are in the file, from 0",
-                   std::to_string(number));
+    if (!missing.empty())
+        refuse("", "no such cell to mark", "numbers of cells that are drawn, as they are in the file, from 0",
+               std::to_string(*missing.begin()));
     if (!colours_.empty() && figure_.surfaces.empty())
         refuse("", "nothing to colour by job.field", "a surface beside marked cells, which are red", "none");
-    const mesh::Part part = mesh::part_of(*mesh_, std::move(cells));
-    Surface& surface = surfaces_.emplace_back(
-        part.mesh.dimension == 3 ? boundary(part.mesh, {.threads = threads_}).value() : cells_of(part.mesh, {}));
-    for (Mesh::Index& node : surface.mesh_edges) node = part.nodes[static_cast<std::size_t>(node)];
-    for (Mesh::Index& cell : surface.mesh_cells) cell = part.cells[static_cast<std::size_t>(cell)];
+    Surface& surface = surfaces_.emplace_back(surface::facets_of(*mesh_, std::move(cells)));
     figure_.surfaces.push_back({.points = surface.points, .triangles = surface.cells, .colour = marked_red});
     drawn_.push_back({&surface, marked_red});
     if (show_.edges) add_edges(surface);
@@ -340,14 +331,11 @@ void MeshFigure::add_arrows() {
         refuse("", "arrows are of a field of nodes",
                fmt::format("one of {} components, of which there is: {}", d, vectors.empty() ? "none" : vectors),
                '"' + show_.arrows + '"');
-    std::array<double, 3> low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-    for (std::size_t i = 0; i < mesh_->points.size(); ++i) {
-        low[i % d] = std::min(low[i % d], mesh_->points[i]);
-        high[i % d] = std::max(high[i % d], mesh_->points[i]);
-    }
+    std::array<base::Range, 3> all{};
+    for (std::size_t i = 0; i < mesh_->points.size(); ++i) all[i % d].add(mesh_->points[i]);
     double volume = 1, longest = 0;
-    for (std::size_t k = 0; k < d; ++k) longest = std::max(longest, high[k] - low[k]);
-    for (std::size_t k = 0; k < d; ++k) volume *= std::max(high[k] - low[k], longest / 1000);
+    for (std::size_t k = 0; k < d; ++k) longest = std::max(longest, 2 * all[k].half());
+    for (std::size_t k = 0; k < d; ++k) volume *= std::max(2 * all[k].half(), longest / 1000);
     const double side = std::pow(volume / static_cast<double>(show_.arrow_count), 1 / static_cast<double>(d));
     // Of the points that a surface has, the nodes.
     std::vector<std::size_t> nodes;
@@ -360,7 +348,7 @@ void MeshFigure::add_arrows() {
         std::array<std::int64_t, 3> box{};
         bool finite = true;
         for (std::size_t k = 0; k < d; ++k) {
-            box[k] = static_cast<std::int64_t>(std::floor((mesh_->points[d * node + k] - low[k]) / side));
+            box[k] = static_cast<std::int64_t>(std::floor((mesh_->points[d * node + k] - all[k].low) / side));
             finite = finite && std::isfinite(found->data[d * node + k]);
         }
         if (finite) boxes.try_emplace(box, node);

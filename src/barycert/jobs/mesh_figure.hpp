@@ -34,7 +34,6 @@ private:
     viewer::PageScene page(const FigureOptions& options) const;
     void choose_cells();
     CutOptions carried();
-    void add_cut_open(const Surface& surface);
     void add_cut(Surface surface, const char* what);
     void add_arrows();
     void add_marked();

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <filesystem>
 
-#include "barycert/environment.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/jobs/field_files.hpp"
 #include "barycert/jobs/job_files.hpp"

@@ -4,7 +4,6 @@
 
 #include "barycert/base/arena.hpp"
 #include "barycert/base/finite.hpp"
-#include "barycert/environment.hpp"
 #include "barycert/locate/cells_at_points.hpp"
 #include "barycert/mesh/consistency.hpp"
 #include "barycert/mesh/pulling.hpp"

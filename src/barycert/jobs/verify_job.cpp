@@ -6,7 +6,6 @@
 #include <numeric>
 
 #include "barycert/base/nearest_name.hpp"
-#include "barycert/environment.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/jobs/claimed_columns.hpp"
 #include "barycert/jobs/stream.hpp"

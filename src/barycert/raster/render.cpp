@@ -1,6 +1,5 @@
 #include "barycert/base/finite.hpp"
 #include "barycert/base/strict_math.hpp"
-#include "barycert/core/exact_tier.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/raster/colour_bytes.hpp"
 #include "barycert/raster/layers.hpp"

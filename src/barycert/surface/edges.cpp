@@ -1,9 +1,8 @@
 #include "barycert/surface/edges.hpp"
 
-#include <numeric>
-
 #include "barycert/base/strict_math.hpp"
 #include "barycert/base/vectors.hpp"
+#include "barycert/mesh/part.hpp"
 
 namespace barycert::surface {
 
@@ -28,17 +27,16 @@ std::vector<std::int32_t> outline_of(const Surface& boundary) {
     return segments;
 }
 
-Surface facets_of(const Mesh& mesh, const std::vector<Mesh::Index>& cells) {
+Surface facets_of(const Mesh& mesh) {
     Surface out;
     out.points = mesh.points;
-    const std::size_t corners = mesh.corners();
-    for (const Mesh::Index cell : cells) {
-        const Mesh::Index* const nodes = &mesh.cells[corners * static_cast<std::size_t>(cell)];
+    for (std::size_t cell = 0; cell < mesh.cell_count(); ++cell) {
+        const auto nodes = mesh.corners_of(cell);
         // The facet without a corner; of a triangle itself, without its fourth, which it has not.
-        for (std::size_t without = corners == 3 ? 3 : 0; without < 4; ++without) {
-            for (std::size_t i = 0; i < corners; ++i)
+        for (std::size_t without = nodes.size() == 3 ? 3 : 0; without < 4; ++without) {
+            for (std::size_t i = 0; i < nodes.size(); ++i)
                 if (i != without) out.cells.push_back(nodes[i]);
-            out.mesh_cells.push_back(cell);
+            out.mesh_cells.push_back(static_cast<Mesh::Index>(cell));
         }
     }
     for (std::size_t i = 0; i < mesh.point_count(); ++i)
@@ -46,10 +44,12 @@ Surface facets_of(const Mesh& mesh, const std::vector<Mesh::Index>& cells) {
     return out;
 }
 
-Surface facets_of(const Mesh& mesh) {
-    std::vector<Mesh::Index> all(mesh.cell_count());
-    std::iota(all.begin(), all.end(), 0);
-    return facets_of(mesh, all);
+Surface facets_of(const Mesh& mesh, std::vector<Mesh::Index> cells) {
+    const mesh::Part part = mesh::part_of(mesh, std::move(cells));
+    Surface out = facets_of(part.mesh);
+    for (Mesh::Index& node : out.mesh_edges) node = part.nodes[static_cast<std::size_t>(node)];
+    for (Mesh::Index& cell : out.mesh_cells) cell = part.cells[static_cast<std::size_t>(cell)];
+    return out;
 }
 
 }  // namespace barycert::surface

@@ -30,10 +30,9 @@ void for_edges(const Surface& surface, F f) {
 /// Where a boundary bends by 30 degrees or more, as segments between points; in the plane all of it.
 std::vector<std::int32_t> outline_of(const Surface& boundary);
 
-/// The facets of these cells; of a mesh in the plane, the cells. No fields.
-Surface facets_of(const Mesh& mesh, const std::vector<Mesh::Index>& cells);
-
-/// Of all cells.
+/// The facets of all cells, or of these, ascending, without points of others; of a mesh in the plane, the cells. No
+/// fields.
 Surface facets_of(const Mesh& mesh);
+Surface facets_of(const Mesh& mesh, std::vector<Mesh::Index> cells);
 
 }  // namespace barycert::surface

@@ -176,7 +176,7 @@ std::string turning_figure(const PageScene& scene, std::string_view still) {
     const auto tell = [&](bool so, std::string_view sentence) {
         if (so) h["told"].push_back(sentence);
     };
-    tell(!h["whole"], "Cells inside are not on this page: a cut shows no section.");
+    tell(d == 3 && !h["whole"], "Cells inside are not on this page: a cut shows no section.");
     tell(!scene.mesh->shapes.inside.empty(), "Weights are those of the simplex that the cell was cut into.");
     tell(curved_cells(*scene.mesh).cells != 0, "Sides of curved cells are taken as straight.");
     h["camera"] = {{"azimuth", o.camera.azimuth},

@@ -336,10 +336,9 @@ class Viewer {
       l.material.color = ink;
     }
     this.renderer.render(this.scene, this.camera);
-    const box = this.renderer.domElement.getBoundingClientRect();
     for (const { at, shown } of this.labels) {
-      const [x, y] = this.pixelOf(at);
-      Object.assign(shown.style, { left: `${x - box.left}px`, top: `${y - box.top}px` });
+      const [x, y] = this.partsOf(at);
+      Object.assign(shown.style, { left: `${100 * x}%`, top: `${100 * y}%` });
     }
   }
 
@@ -403,10 +402,14 @@ class Viewer {
     return { weights: numerators.map((n) => nearest(n, denominator)), value };
   }
 
-  /// Where on the window a point of the mesh is drawn.
+  /// Where a point of the mesh is drawn, in parts of the canvas from its upper left corner; and in pixels of the window.
+  partsOf(point) {
+    const at = new THREE.Vector3(...this.placed(point)).project(this.camera);
+    return [(at.x + 1) / 2, (1 - at.y) / 2];
+  }
   pixelOf(point) {
-    const at = new THREE.Vector3(...this.placed(point)).project(this.camera), box = this.renderer.domElement.getBoundingClientRect();
-    return [box.left + ((at.x + 1) / 2) * box.width, box.top + ((1 - at.y) / 2) * box.height];
+    const [x, y] = this.partsOf(point), box = this.renderer.domElement.getBoundingClientRect();
+    return [box.left + x * box.width, box.top + y * box.height];
   }
 }
 

@@ -1,4 +1,3 @@
-
 #include "barycert/core/isoparametric/newton.hpp"
 
 namespace barycert::core::isoparametric {

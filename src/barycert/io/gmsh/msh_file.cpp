@@ -5,10 +5,6 @@
 namespace barycert::io {
 namespace {
 
-bool is_space(char c) {
-    return c == ' ' || c == '\t' || c == '\r' || c == '\n';
-}
-
 std::string_view trimmed(std::string_view text) {
     text = text.substr(0, text.find_last_not_of(" \t\r\n") + 1);
     return text.substr(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
@@ -50,8 +46,8 @@ std::string_view take_line(const char*& at, const char* end) {
 }
 
 std::string word_at(const char* at, const char* end) {
-    while (at != end && is_space(*at)) ++at;
-    const char* const stop = std::find_if(at, std::min(end, at + std::min<std::ptrdiff_t>(end - at, 64)), is_space);
+    while (at != end && is_white(*at)) ++at;
+    const char* const stop = std::find_if(at, std::min(end, at + std::min<std::ptrdiff_t>(end - at, 64)), is_white);
     return at == stop ? "the end of the file" : base::quoted({at, static_cast<std::size_t>(stop - at)});
 }
 
@@ -114,7 +110,7 @@ void MshFile::list_text_sections() {
     const std::vector<const char*>& marks = words_.marked();
     const char* from = begin();
     const auto no_text_before = [&](const char* stop) {
-        while (from != stop && is_space(*from)) ++from;
+        while (from != stop && is_white(*from)) ++from;
         if (from != stop)
             refuse(from, "text between sections", "a line \"$...\" that begins a section", word_at(from, end()),
                    "remove it, or put it into a section $Comments");
@@ -132,7 +128,7 @@ void MshFile::list_text_sections() {
 
 void MshFile::list_binary_sections() {
     for (const char* at = begin();;) {
-        while (at != end() && is_space(*at)) ++at;
+        while (at != end() && is_white(*at)) ++at;
         if (at == end()) return;
         if (*at != '$')
             refuse(at, "bytes between sections", "\"$\", which begins a section", word_at(at, end()),

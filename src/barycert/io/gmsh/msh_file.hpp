@@ -1,4 +1,5 @@
-/// A .msh file in memory: its format, and where its sections are. Errors are thrown as Exceptions.
+/// A .msh file in memory: its format, where its sections are, numbers of headers and rows. Errors are thrown as
+/// Exceptions.
 #pragma once
 
 #include "barycert/base/workers.hpp"

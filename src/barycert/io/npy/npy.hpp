@@ -20,11 +20,6 @@ struct NpyType {
     bool is_text() const { return kind == 'S' || kind == 'U'; }
 };
 
-/// Of a simple type such as <f8. Nothing where the size of an item is not known, or an item is a Python object.
-std::optional<NpyType> npy_type(std::string_view descr);
-
-inline constexpr std::string_view npy_magic = "\x93NUMPY";
-
 /// The text of a header is at most this long: more has no meaning for an array of numbers.
 inline constexpr std::size_t longest_npy_text = std::size_t{1} << 20;
 

@@ -17,7 +17,33 @@ bool append_utf8(std::string& text, std::uint32_t code) {
     return true;
 }
 
+/// Of a simple type such as <f8. Nothing where the size of an item is not known, or an item is a Python object.
+std::optional<NpyType> npy_type(std::string_view descr) {
+    constexpr std::size_t longest = std::size_t{1} << 30;
+    NpyType type{.text = std::string(descr)};
+    if (descr.size() < 3 || std::string_view("<>|").find(descr.front()) == std::string_view::npos) return std::nullopt;
+    const bool big = descr.front() == '>';
+    const char kind = descr[1];
+    descr.remove_prefix(2);
+    const auto [end, error] = std::from_chars(descr.data(), descr.data() + descr.size(), type.size);
+    if (error != std::errc{} || kind == 'O' || type.size > longest) return std::nullopt;
+    const std::string_view unit = descr.substr(static_cast<std::size_t>(end - descr.data()));  // <M8[ns]
+    const bool time = kind == 'M' || kind == 'm';
+    if (!unit.empty() && !(time && unit.starts_with('[') && unit.ends_with(']'))) return std::nullopt;
+    type.swapped = big == (std::endian::native == std::endian::little);
+    const std::size_t least = kind == 'f' ? 2 : 1, most = kind == 'b' ? 1 : 8;
+    const bool fits = std::has_single_bit(type.size) && type.size >= least && type.size <= most;
+    if (((kind == 'f' || kind == 'i' || kind == 'u' || kind == 'b') && fits) || kind == 'S' || kind == 'U')
+        type.kind = kind;
+    constexpr std::string_view known = "fiubSUVcMm";
+    if (known.find(kind) == std::string_view::npos) return std::nullopt;
+    if (kind == 'U') type.size *= 4;
+    return type;
+}
+
 // The header.
+
+constexpr std::string_view npy_magic = "\x93NUMPY";
 
 /// A Python literal of those that stand in such a header.
 struct Literal {
@@ -357,29 +383,6 @@ std::string npy_header_of(const std::string& descr, const std::vector<std::uint6
     head += {version, '\0'};
     for (std::size_t i = 8; i < before; ++i) head += static_cast<char>(text.size() >> 8 * (i - 8) & 0xFFU);
     return head + text;
-}
-
-std::optional<NpyType> npy_type(std::string_view descr) {
-    constexpr std::size_t longest = std::size_t{1} << 30;
-    NpyType type{.text = std::string(descr)};
-    if (descr.size() < 3 || std::string_view("<>|").find(descr.front()) == std::string_view::npos) return std::nullopt;
-    const bool big = descr.front() == '>';
-    const char kind = descr[1];
-    descr.remove_prefix(2);
-    const auto [end, error] = std::from_chars(descr.data(), descr.data() + descr.size(), type.size);
-    if (error != std::errc{} || kind == 'O' || type.size > longest) return std::nullopt;
-    const std::string_view unit = descr.substr(static_cast<std::size_t>(end - descr.data()));  // <M8[ns]
-    const bool time = kind == 'M' || kind == 'm';
-    if (!unit.empty() && !(time && unit.starts_with('[') && unit.ends_with(']'))) return std::nullopt;
-    type.swapped = big == (std::endian::native == std::endian::little);
-    const std::size_t least = kind == 'f' ? 2 : 1, most = kind == 'b' ? 1 : 8;
-    const bool fits = std::has_single_bit(type.size) && type.size >= least && type.size <= most;
-    if (((kind == 'f' || kind == 'i' || kind == 'u' || kind == 'b') && fits) || kind == 'S' || kind == 'U')
-        type.kind = kind;
-    constexpr std::string_view known = "fiubSUVcMm";
-    if (known.find(kind) == std::string_view::npos) return std::nullopt;
-    if (kind == 'U') type.size *= 4;
-    return type;
 }
 
 NpyFile::NpyFile(const std::string& path)

@@ -84,7 +84,7 @@ std::string nodes_of(std::size_t count) {
     return count == 0 ? "none, as there are no nodes" : "0 to " + std::to_string(count - 1);
 }
 
-/// Polygons that name no point, or a count that the file cannot hold.
+/// Refuses corners that are no points; numbers from 1 become numbers from 0.
 void check_corners(PlcText& in, Polygons& all) {
     if (all.rings.empty()) return;
     const auto [low, high] = std::ranges::minmax(all.rings);

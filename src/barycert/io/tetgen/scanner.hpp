@@ -2,7 +2,7 @@
 ///
 /// Enters: a pointer into a MappedFile, whose bytes are followed by NULs; so no step compares with the end.
 /// Leaves: the value, and the pointer moved over the field. A function that fails says so and no more: why a row is
-/// bad is found out by text_table.cpp, slowly and once.
+/// bad is found out by row_errors.cpp, slowly and once.
 ///
 /// integer   = [+|-] (0 | 1-9 {0-9})       leading zeros are refused: TetGen takes 010 for octal 8
 /// real      = [+|-] decimal, [e|E exponent]; finite

@@ -11,7 +11,7 @@
 // of their first row. The first id of .node, 0 or 1, is the base of all ids and indices of all files; ids run on
 // without gaps. A row has as many columns as the header tells, and the file as many rows.
 //
-// Where TetGen would accept and misread, this reader refuses: see text_table.cpp.
+// Where TetGen would accept and misread, this reader refuses: see row_errors.cpp.
 #include <initializer_list>
 
 #include "barycert/io/streams.hpp"

@@ -81,10 +81,22 @@ void make_room(TextTable& table);
 /// Parses the rows of all tables; the error of the first table that has one.
 void parse_tables(std::span<TextTable* const> tables, int threads);
 
+/// The fields of the line that holds `at`, without its comment; an empty field where a comma has no neighbour.
+std::vector<std::string_view> fields_of_line(const TextTable& table, const char* at);
+
 /// As refuse_line(), of the header.
 template <class... Parts>
 [[noreturn]] void refuse_header(const TextTable& table, Parts&&... parts) {
     refuse_line(table.file, line_of(table.bytes, table.begin() + table.header_at), std::forward<Parts>(parts)...);
 }
+
+/// Header field `field` is no count; `name` is what it counts.
+[[noreturn]] void refuse_count(const TextTable& table, std::string_view field, const char* name);
+
+/// Row number `row` (from 0), which holds `at` and which the row parser refused.
+[[noreturn]] void refuse_row(const TextTable& table, const char* at, std::size_t row);
+
+[[noreturn]] void refuse_end(const TextTable& table, std::size_t found);
+[[noreturn]] void refuse_surplus(const TextTable& table, const char* at);
 
 }  // namespace barycert::io

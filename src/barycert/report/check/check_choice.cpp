@@ -48,6 +48,17 @@ std::array<Vector, 2> sides_at(Points t, std::array<std::size_t, 2> edge) {
     return sides;
 }
 
+/// The longest extent to the right; up another one: 0, the least, or 1, the middle one.
+View broad_view(const std::vector<Vector>& points, int up) {
+    const Vector sum = std::accumulate(points.begin(), points.end(), Vector(Vector::Zero()));
+    const Vector mean = sum / static_cast<double>(std::max<std::size_t>(points.size(), 1));
+    Eigen::Matrix3d m = Eigen::Matrix3d::Zero();
+    for (const Vector& p : points) m += (p - mean) * (p - mean).transpose();
+    // Directions of least, middle and largest extent, orthonormal.
+    const Eigen::Matrix3d axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(m).eigenvectors();
+    return {axes.col(2), axes.col(up), axes.col(2).cross(axes.col(up))};
+}
+
 }  // namespace
 
 std::vector<Exhibit> worst_cells(const CheckReport& report, const Mesh& mesh, std::size_t max) {
@@ -133,21 +144,6 @@ Vector Normalised::place(const double* point) const {
     }
     return v;
 }
-
-namespace {
-
-/// The longest extent to the right; up another one: 0, the least, or 1, the middle one.
-View broad_view(const std::vector<Vector>& points, int up) {
-    const Vector sum = std::accumulate(points.begin(), points.end(), Vector(Vector::Zero()));
-    const Vector mean = sum / static_cast<double>(std::max<std::size_t>(points.size(), 1));
-    Eigen::Matrix3d m = Eigen::Matrix3d::Zero();
-    for (const Vector& p : points) m += (p - mean) * (p - mean).transpose();
-    // Directions of least, middle and largest extent, orthonormal.
-    const Eigen::Matrix3d axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(m).eigenvectors();
-    return {axes.col(2), axes.col(up), axes.col(2).cross(axes.col(up))};
-}
-
-}  // namespace
 
 View from_above(const std::vector<Vector>& points) {
     return broad_view(points, 1);

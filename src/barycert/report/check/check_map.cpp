@@ -14,20 +14,19 @@
 namespace barycert::report {
 namespace {
 
-/// The cells that have a boundary: others could not be asked for their facets. `rows`: which they are.
-Mesh proper_cells(const CheckReport& r, const Mesh& mesh, std::vector<Mesh::Index>& rows) {
-    Mesh proper;
-    proper.dimension = mesh.dimension;
-    proper.points = mesh.points;
+/// The cells that have a boundary: others could not be asked for their facets.
+mesh::Part proper_cells(const CheckReport& r, const Mesh& mesh) {
+    std::vector<Mesh::Index> cells;
     for (std::size_t cell = 0; cell < mesh.cell_count(); ++cell) {
         const auto all = mesh.corners_of(cell);
         const bool twice = std::ranges::any_of(all, [&](Mesh::Index i) { return std::ranges::count(all, i) != 1; });
-        if (!drawable(mesh, cell) || twice) continue;
-        proper.cells.insert(proper.cells.end(), all.begin(), all.end());
-        rows.push_back(static_cast<Mesh::Index>(cell));
-        proper.cell_numbers.push_back(static_cast<Mesh::Index>(r.cell_number(rows.back())));
+        if (drawable(mesh, cell) && !twice) cells.push_back(static_cast<Mesh::Index>(cell));
     }
-    return proper;
+    mesh::Part part = mesh::part_of(mesh, std::move(cells));
+    part.mesh.cell_numbers.clear();
+    for (const Mesh::Index cell : part.cells)
+        part.mesh.cell_numbers.push_back(static_cast<Mesh::Index>(r.cell_number(cell)));
+    return part;
 }
 
 Vector point_at(const Mesh& mesh, Mesh::Index node) {
@@ -95,17 +94,17 @@ constexpr Rgba red{200, 16, 46, 255}, blue{0, 114, 178, 255}, grey{128, 128, 128
 /// The mesh with these cells: it turns, if that is not too much for a page.
 std::string picture_of(const CheckReport& r, const Mesh& mesh, const std::vector<Exhibit>& exhibits, bool& turns) {
     const bool all = std::ranges::none_of(r.defects, leaves_cells_out), plane = mesh.dimension == 2;
-    std::vector<Mesh::Index> rows, rest;
-    const Mesh copy = all ? Mesh() : proper_cells(r, mesh, rows);
-    const Mesh& proper = all ? mesh : copy;
-    const auto facets = [&](const std::vector<Mesh::Index>& cells) {
+    const mesh::Part part = all ? mesh::Part() : proper_cells(r, mesh);
+    const Mesh& proper = all ? mesh : part.mesh;
+    const auto facets = [&](std::vector<Mesh::Index> cells) {
         std::vector<Mesh::Index> own;
+        std::ranges::sort(cells);
         for (const Mesh::Index cell : cells) {
-            const auto at = std::ranges::lower_bound(rows, cell);
-            if (all || (at != rows.end() && *at == cell))
-                own.push_back(all ? cell : static_cast<Mesh::Index>(at - rows.begin()));
+            const auto at = std::ranges::lower_bound(part.cells, cell);
+            if (all || (at != part.cells.end() && *at == cell))
+                own.push_back(all ? cell : static_cast<Mesh::Index>(at - part.cells.begin()));
         }
-        return surface::facets_of(proper, own);
+        return surface::facets_of(proper, std::move(own));
     };
     const Result<Surface> hull = boundary(proper, {.threads = r.threads});
     if (!hull || hull->cells.empty()) return "";
@@ -114,6 +113,8 @@ std::string picture_of(const CheckReport& r, const Mesh& mesh, const std::vector
     scene.figure = {.dimension = mesh.dimension, .options = {.size = {640, 460}, .background{}, .bar = false}};
     const auto segments = surface::outline_of(*hull);
     scene.figure.lines = {{hull->points, segments, 1, grey}};
+    scene.nodes = part.nodes;
+    std::vector<Mesh::Index> rest;
     for (const Exhibit& e : exhibits) {
         if (!e.defect) rest.push_back(e.cells[0]);
         const Vector at = middle_of(mesh, e.cells[0]);
@@ -134,7 +135,7 @@ std::string picture_of(const CheckReport& r, const Mesh& mesh, const std::vector
     std::deque<Field> fields;
     for (Measure& m : measures_of(r)) {
         const Field& f = fields.emplace_back(Field{m.name, 1, std::move(m.values)});
-        if (!all) fields.back() = mesh::rows_of(f, rows);
+        if (!all) fields.back() = mesh::rows_of(f, part.cells);
         scene.cell_fields.push_back(&fields.back());
     }
     if (bad.cells.empty()) scene.field = &fields[4];
@@ -150,10 +151,10 @@ std::string exhibit_map(const CheckReport& r, const Mesh& mesh, const std::vecto
     if (box.isEmpty()) return "";
     bool turns = false;
     const std::string picture = picture_of(r, mesh, exhibits, turns);
-    std::string drawn = turns ? "" : " The mesh is too large to turn on a page.";
+    std::string drawn = turns || picture.empty() ? "" : " The mesh is too large to turn on a page.";
     const bool defects = exhibits.front().defect, others = !exhibits.back().defect;
     if (defects) drawn += " Red: cells with defects.";
-    if (others) drawn += " Blue: the cells with the smallest angles, which need not be wrong.";
+    if (others) drawn += " Blue: the cells with the smallest angles, which need not be wrong; some lie inside.";
     return fmt::format(
         "<div class=\"map\">{}<div>{}</div></div>\n<p class=\"small\">The box of the cells: {}.{} Those with numbers "
         "are drawn below.</p>\n",

@@ -132,9 +132,8 @@ figure>img{max-width:100%;height:auto}
 .swatch{display:inline-block;width:11px;height:11px;margin-right:6px;border-radius:2px}
 .swatch.a{background:var(--bar)}.swatch.b{background:var(--second)}
 svg .count{font-size:9px;fill:var(--soft)}
-svg .view{fill:var(--soft)}svg .id{font-size:11px}svg .id,svg .number{paint-order:stroke;
+svg .view{fill:var(--soft)}svg .id{font-size:11px}svg .id{paint-order:stroke;
  stroke:var(--ground);stroke-width:3px;stroke-opacity:.8}
-svg .number{font-size:13px;font-weight:bold;fill:var(--bar)}svg .number.bad{fill:var(--bad)}
 svg .face{stroke:none;fill-opacity:.16}svg .face.a{fill:var(--bar)}svg .face.b{fill:var(--second)}
 svg .edge{stroke-width:1.5px}svg .edge.a{stroke:var(--bar)}svg .edge.b{stroke:var(--second)}
 svg .far{stroke-dasharray:4 4;stroke-width:1px}
