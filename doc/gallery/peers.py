@@ -144,6 +144,20 @@ def scenes():
     dark, _ = mapped(glyphs)
     dark.GetProperty().SetColor(0.15, 0.15, 0.15)
     write("arrows", mapped(grid)[0], dark)
+    turns = np.arange(600) / 6
+    radius = 1 + 0.25 * np.cos(turns)
+    coil = np.stack([radius * np.cos(turns / 16), radius * np.sin(turns / 16), 0.25 * np.sin(turns)], axis=-1)
+    at = vtk.vtkPoints()
+    at.SetData(numpy_to_vtk(coil, deep=1))
+    cloud = vtk.vtkPolyData()
+    cloud.SetPoints(at)
+    probe = filtered(vtk.vtkProbeFilter, cloud, SetSourceData=(grid_of(torus),))
+    discs = vtk.vtkVertexGlyphFilter()
+    discs.SetInputConnection(probe.GetOutputPort())
+    points, bar = mapped(discs, "attribute1", of(torus, "attribute1"))
+    points.GetProperty().SetPointSize(6)
+    points.GetProperty().RenderPointsAsSpheresOn()
+    write("points", points, bar, outlined(grid_of(torus)))
     halves = barycert.read("data/gmsh/halves.msh")
     write("labels", *with_edges(mapped(grid_of(halves), "gmsh:physical", (10, 20), cells=True)))
     marked = filtered(vtk.vtkExtractCells, grid_of(cube))
@@ -179,6 +193,16 @@ def plots():
     axes.set(xlabel="step", title="three probes")
     axes.legend()
     figure.savefig(os.path.join(FOLDER, "series-matplotlib.png"))
+    bracket = barycert.read("data/meshes/bracket")
+    corners = bracket.points[bracket.cells]
+    edges = corners[:, 1:] - corners[:, :1]
+    sides = [np.linalg.norm(corners[:, i] - corners[:, j], axis=1) for i in range(4) for j in range(i)]
+    figure, axes = plt.subplots(2, 1, figsize=(5.2, 5.2), dpi=100, layout="constrained")
+    axes[0].hist(np.abs(np.linalg.det(edges)) / 6, bins=48)
+    axes[0].set(xlabel="volume", ylabel="cells")
+    axes[1].hist(np.max(sides, axis=0) / np.min(sides, axis=0), bins=48)
+    axes[1].set(xlabel="longest edge / shortest edge", ylabel="cells")
+    figure.savefig(os.path.join(FOLDER, "histogram-matplotlib.png"))
 
 
 scenes()

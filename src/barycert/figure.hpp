@@ -36,6 +36,14 @@ struct FigureArrows {
     Rgba colour{40, 40, 40, 255};
 };
 
+/// Discs that face the viewer.
+struct FigurePoints {
+    std::span<const double> points = {};
+    std::span<const double> values = {};  ///< their colours: one each, or none. NaN or infinite: none
+    double size = 6;                      ///< pixels across
+    Rgba colour{40, 40, 40, 255};
+};
+
 /// Values on a grid in the plane, drawn as one pixel each; where columns and lines lie differently far apart, they are
 /// repeated. The figure is as large as that and what is beside it.
 struct FigureGrid {
@@ -88,6 +96,7 @@ struct Figure {
     std::vector<FigureSurface> surfaces = {};
     std::vector<FigureLines> lines = {};
     std::vector<FigureArrows> arrows = {};
+    std::vector<FigurePoints> points = {};
     std::optional<FigureGrid> grid = {};  ///< with no surface, and in the plane
     FigureOptions options = {};
 };
@@ -118,10 +127,10 @@ Result<Image> draw_figure(const Figure& figure, FigureCounts* counts = nullptr);
 /// True for the suffixes of write_figure: .png, .svg, .pdf.
 bool is_figure_name(std::string_view path);
 
-/// In .svg and .pdf text and axes are text and lines, and the rest an image of 300 dpi. As .png a grid without bar,
-/// axes and title, with a resolution of 1, has its pixels alone, clear where there is no value, and any size of up to a
-/// million pixels a side: it is written line by line. Error: as draw_figure;
-/// the file cannot be written.
+/// In .svg and .pdf text and axes are text and lines. The rest is an image of 300 dpi; or polygons and lines, if it
+/// lies in the plane and is in sight, has one colour a triangle, and fewer than 20,000 triangles. As .png a grid
+/// without bar, axes and title, with a resolution of 1, has its pixels alone, clear where there is no value, and up to
+/// a million pixels a side, written line by line. Error: as draw_figure; the file cannot be written.
 Status write_figure(const std::string& path, const Figure& figure, FigureCounts* counts = nullptr);
 
 }  // namespace barycert

@@ -359,8 +359,11 @@ struct SceneChoice {
     std::string iso_field;
     std::vector<double> iso = {};  ///< values of its iso-surfaces
     std::vector<Plane> slices = {};
-    std::string arrows;                    ///< a field of nodes of as many components as there are coordinates
+    /// A field of nodes of as many components as there are coordinates; in colours of the field if there is no surface.
+    std::string arrows;
     std::int64_t arrow_count = 400;        ///< about so many
+    std::vector<double> points = {};       ///< coordinates of discs, in colours of the field there
+    double point_size = 6;                 ///< pixels across
     std::vector<Mesh::Index> marked = {};  ///< cells by their numbers, in red
 };
 
@@ -370,6 +373,7 @@ struct RenderJob : MeshJob {
     std::string output;         ///< .png; of a mesh also .svg or .pdf
     FigureOptions figure = {};  ///< size, method, rounding and samples of all pictures; the rest of that of a mesh
     SceneChoice show = {};      ///< of a mesh
+    std::string points;         ///< a file of points to be among those of `show`, as for open_points
     std::string scene;          ///< a file (.json)
     Interpolation interpolation = Interpolation::perspective;  ///< of a cube
     std::string image;                                         ///< of a texture: .png; empty: one of 2 by 2 texels

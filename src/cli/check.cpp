@@ -32,6 +32,10 @@ int run_check(Arguments<CheckJob>& a) {
             return c.report.surface ? check_html(c.report, c.surface, c.name)
                                     : check_html(c.report, c.mesh, c.name, fixed);
         };
+        told.files["--plot"] = [&a, &c]() -> Result<std::string> {
+            if (c.report.surface) return Error{.what = "--plot draws measures of cells, which surfaces have not"};
+            return check_plot(c.report, c.name, a.reports.path("--plot"));
+        };
         return told;
     });
 }
@@ -70,6 +74,7 @@ a PLC, if it is valid and encloses a region: then TetGen can mesh it. --delaunay
     a.reports.file(
         o, "--html",
         "Write the report as an HTML page with histograms and pictures of cells; - is stdout and suppresses the table");
+    a.reports.file(o, "--plot", "Draw the histograms of volumes, angles and ratios: .png .svg .pdf");
     o.text("--vtu", job.measures,
            "Write the mesh with measures and defects of each cell as VTU (a surface: .vtp), for ParaView");
     o.text("--picture", job.picture, "Draw a surface from two sides, triangles with defects red: .png");

@@ -101,7 +101,7 @@ std::optional<std::pair<std::string, std::vector<double>>> named_numbers(Text te
 /// What of the mesh is drawn.
 void add_choice(const Options& o, SceneChoice& show) {
     o.edges(show.edges, show.outline, "");
-    o.flag("--no-surface", show.surface, "Without the boundary: --outline or --arrows alone", false);
+    o.flag("--no-surface", show.surface, "Without the boundary: --outline, --arrows, --points alone", false);
     o.taken("--clip", "PLANE|BOX",
             "Cut open: leave out where the normal of a plane points to, such as x > 0.5 for x=0.5, and close it by the "
             "section; or cells with a "
@@ -126,8 +126,9 @@ void add_choice(const Options& o, SceneChoice& show) {
         if (!plane) refuse_option("--slice", "an axis and where, such as z=0.5, or NX,NY,NZ,D, finite numbers", text);
         show.slices.push_back(*plane);
     });
-    auto* const arrows =
-        o.text("--arrows", show.arrows, "Arrows of a field of vectors at nodes of what is drawn", "NAME");
+    auto* const arrows = o.text(
+        "--arrows", show.arrows,
+        "Arrows of a field of vectors at nodes of what is drawn; with --no-surface in the colours of --field", "NAME");
     o.integer<std::int64_t>("--arrow-count", show.arrow_count, 1, 1000000, "About how many of them, spread evenly")
         ->needs(arrows);
     o.taken("--mark", "CELL,...",
@@ -156,6 +157,10 @@ void add_mesh(const Options& render) {
            "The field: A, point:A or cell:A; A.1 is its component 1; default: none, the mesh is grey", "NAME");
     o.field_files(job.field_files, "--field-file");
     add_choice(o, job.show);
+    auto* const points =
+        o.text("--points", job.points,
+               "Discs at the points of a table, in the colours of the field there; grey: outside", "FILE");
+    o.number("--point-size", job.show.point_size, 0, "Pixels across; default: 6", "PIXELS")->needs(points);
     o.figure(job.figure, "");
     o.view(job.figure, "");
     o.number("--scale", job.figure.scale, 0, "In the plane, in place of --size: pixels for a unit", "PIXELS")

@@ -11,7 +11,8 @@ int run_verify(Arguments<VerifyJob>& a) {
         const Environment environment = measure_environment();
         const std::vector<VerifyLimit> failures = r.exceeded();
         Told told{.files = {{"--json", [&r, environment] { return verify_json(r, environment); }},
-                            {"--html", [&r, environment] { return verify_html(r, environment); }}},
+                            {"--html", [&r, environment] { return verify_html(r, environment); }},
+                            {"--plot", [&a, &r] { return verify_plot(r, a.reports.path("--plot")); }}},
                   .text = [&r](bool colour) { return verify_text(r, colour); },
                   .ci = [&r, environment] { return verify_outcomes(r, environment); },
                   .notes = r.notes,
@@ -82,6 +83,7 @@ Exit codes: 0 all rows are right, 1 some are wrong (see --fail-on), 2 usage or i
     o.threads(job.options.threads);
     a.reports.file(o, "--json", "Write the report as JSON; - is stdout");
     a.reports.file(o, "--html", "Write the report as an HTML page; - is stdout");
+    a.reports.file(o, "--plot", "Draw histograms of the errors, in ulps and in parts of the range: .png .svg .pdf");
     a.reports.ci(o, "kinds of wrong rows (see --fail-on)");
     a.reports.quiet(o, "Print no report and no progress");
 }

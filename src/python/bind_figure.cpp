@@ -53,6 +53,10 @@ void take(const Options& given, SceneChoice& show) {
     given("iso_field", show.iso_field);
     given("arrows", show.arrows);
     given("arrow_count", show.arrow_count);
+    given("point_size", show.point_size);
+    py::array_t<double, py::array::c_style | py::array::forcecast> points;
+    given("points", points);
+    show.points.assign(points.data(), points.data() + points.size());
     given("marked", show.marked);
 }
 

@@ -138,13 +138,9 @@ Mesh::Index ExactIndex::owner(const double* x) const {
 
 pieces::Closest ExactIndex::closest(const double* x, double limit) const {
     if (!on_surface) return IndexedPiece::closest(x, limit);
-    pieces::Closest found;
     const Result<SurfaceNearest> near = on_surface->nearest(x, limit);
-    if (!near || near->cell < 0) return found;
-    found.cell = near->cell;
-    found.distance = near->distance;
-    found.point = near->point;
-    found.inside = near->on;
+    if (!near || near->cell < 0) return {};
+    pieces::Closest found{.cell = near->cell, .distance = near->distance, .inside = near->on, .point = near->point};
     const Mesh::Index* const corners = mesh.cells.data() + std::size_t{3} * static_cast<std::size_t>(near->cell);
     for (std::size_t k = 0; k < 9; ++k)
         if (near->nodes[k / 3] == corners[k % 3]) found.weights[k % 3] = near->weights[k / 3];
@@ -182,11 +178,9 @@ void ExactIndex::weights_of_nodes(Mesh::Index cell, const double* x, bool inside
         its.nodes.assign(corners, corners + mesh.corners());
         its.weights.assign(all.begin(), all.end());
     } else {
-        Table row;
-        row.points.assign(point.begin(), point.begin() + mesh.dimension);
-        row.cells = {inside ? cell : -1};
-        if (Result<NodeWeights> all = node_weights(*locator, row.view(), {.kind = Outside::nearest}))
-            its = std::move(*all);
+        const Mesh::Index own = inside ? cell : -1;
+        const TableView row{.points = {point.data(), mesh.corners() - 1}, .cells = {&own, 1}};
+        if (Result<NodeWeights> all = node_weights(*locator, row, {.kind = Outside::nearest})) its = std::move(*all);
     }
     // Of a map that cannot be inverted there, none.
     const double others = its.nodes.empty() ? std::numeric_limits<double>::quiet_NaN() : 0.0;

@@ -252,18 +252,6 @@ void ProbeArrays::add_cell_arrays(vtkDataSet& source, vtkDataSet& output) {
     }
 }
 
-std::vector<FieldChoice> ProbeArrays::choices() const {
-    std::vector<FieldChoice> all;
-    for (const Field& field : fields_) all.push_back({.field = &field});
-    if (!cells_.data.empty()) all.push_back({.field = &cells_, .of_cells = true});
-    return all;
-}
-
-void ProbeArrays::number_cells() {
-    cells_.data.resize(index_.mesh.cell_count());
-    for (std::size_t i = 0; i < cells_.data.size(); ++i) cells_.data[i] = static_cast<double>(i);
-}
-
 void ProbeArrays::write(const TableView& rows, const vtkIdType* ids, vtkIdType first, const PlaceOfRow& place) {
     rows_.clear();
     const std::size_t stride = rows.row_count() == 0 ? 0 : rows.values.size() / rows.row_count();

@@ -35,10 +35,18 @@ public:
     void allocate(vtkIdType points, double outside);
 
     /// What a sampler is to sample, in the order of its columns. Refers to this object.
-    std::vector<FieldChoice> choices() const;
+    std::vector<FieldChoice> choices() const {
+        std::vector<FieldChoice> all;
+        for (const Field& field : fields_) all.push_back({.field = &field});
+        if (!cells_.data.empty()) all.push_back({.field = &cells_, .of_cells = true});
+        return all;
+    }
 
     /// Lets points outside have the values of the nearest cell: the last choice is the number of that cell.
-    void number_cells();
+    void number_cells() {
+        cells_.data.resize(index_.mesh.cell_count());
+        for (std::size_t i = 0; i < cells_.data.size(); ++i) cells_.data[i] = static_cast<double>(i);
+    }
 
     /// From now on, owners[point] is set to the cell of the mesh of every point with a value.
     void keep_owners(std::vector<Mesh::Index>& owners) { owners_ = &owners; }

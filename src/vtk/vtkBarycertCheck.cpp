@@ -176,10 +176,6 @@ CheckReport check(vtkDataSet& data, const ExactIndex& index, const CheckOptions&
 
 vtkStandardNewMacro(vtkBarycertCheck);
 
-vtkBarycertCheck::vtkBarycertCheck() {
-    SetNumberOfOutputPorts(3);
-}
-
 void vtkBarycertCheck::PrintSelf(ostream& os, vtkIndent indent) {
     Superclass::PrintSelf(os, indent);
     os << indent << "Delaunay: " << (Delaunay != 0 ? "On" : "Off") << "\n"

@@ -60,7 +60,7 @@ public:
     vtkPolyData* GetCommonPoints();
 
 protected:
-    vtkBarycertCheck();
+    vtkBarycertCheck() { SetNumberOfOutputPorts(3); }
     ~vtkBarycertCheck() override = default;
 
     int FillOutputPortInformation(int port, vtkInformation* info) override;

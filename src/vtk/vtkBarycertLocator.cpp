@@ -206,12 +206,6 @@ vtkIdType vtkBarycertLocator::FindCell(double x[3]) {
     return index != nullptr ? index->id(index->owner(x)) : -1;
 }
 
-vtkIdType vtkBarycertLocator::FindCell(double x[3], double tol2, vtkGenericCell* cell, double pcoords[3],
-                                       double* weights) {
-    int sub_id = 0;
-    return FindCell(x, tol2, cell, sub_id, pcoords, weights);
-}
-
 vtkIdType vtkBarycertLocator::FindCell(double x[3], double tol2, vtkGenericCell* cell, int& subId, double pcoords[3],
                                        double* weights) {
     const ExactEnvironment environment;
@@ -239,23 +233,12 @@ vtkIdType vtkBarycertLocator::FindCell(double x[3], double tol2, vtkGenericCell*
     return id;
 }
 
-void vtkBarycertLocator::FindClosestPoint(const double x[3], double closestPoint[3], vtkIdType& cellId, int& subId,
-                                          double& dist2) {
-    FindClosestPoint(x, closestPoint, nullptr, cellId, subId, dist2);
-}
-
 void vtkBarycertLocator::FindClosestPoint(const double x[3], double closestPoint[3], vtkGenericCell* cell,
                                           vtkIdType& cellId, int& subId, double& dist2) {
     int inside = 0;
     double point[3] = {x[0], x[1], x[2]};
     FindClosestPointWithinRadius(point, std::numeric_limits<double>::infinity(), closestPoint, cell, cellId, subId,
                                  dist2, inside);
-}
-
-vtkIdType vtkBarycertLocator::FindClosestPointWithinRadius(double x[3], double radius, double closestPoint[3],
-                                                           vtkIdType& cellId, int& subId, double& dist2) {
-    int inside = 0;
-    return FindClosestPointWithinRadius(x, radius, closestPoint, nullptr, cellId, subId, dist2, inside);
 }
 
 vtkIdType vtkBarycertLocator::FindClosestPointWithinRadius(double x[3], double radius, double closestPoint[3],

@@ -69,16 +69,24 @@ public:
     std::string GetReason();
 
     vtkIdType FindCell(double x[3]) override;
-    vtkIdType FindCell(double x[3], double tol2, vtkGenericCell* cell, double pcoords[3], double* weights) override;
+    vtkIdType FindCell(double x[3], double tol2, vtkGenericCell* cell, double pcoords[3], double* weights) override {
+        int sub_id = 0;
+        return FindCell(x, tol2, cell, sub_id, pcoords, weights);
+    }
     virtual vtkIdType FindCell(double x[3], double tol2, vtkGenericCell* cell, int& subId, double pcoords[3],
                                double* weights);
 
     void FindClosestPoint(const double x[3], double closestPoint[3], vtkIdType& cellId, int& subId,
-                          double& dist2) override;
+                          double& dist2) override {
+        FindClosestPoint(x, closestPoint, nullptr, cellId, subId, dist2);
+    }
     void FindClosestPoint(const double x[3], double closestPoint[3], vtkGenericCell* cell, vtkIdType& cellId,
                           int& subId, double& dist2) override;
     vtkIdType FindClosestPointWithinRadius(double x[3], double radius, double closestPoint[3], vtkIdType& cellId,
-                                           int& subId, double& dist2) override;
+                                           int& subId, double& dist2) override {
+        int inside = 0;
+        return FindClosestPointWithinRadius(x, radius, closestPoint, nullptr, cellId, subId, dist2, inside);
+    }
     using vtkAbstractCellLocator::FindClosestPointWithinRadius;
     vtkIdType FindClosestPointWithinRadius(double x[3], double radius, double closestPoint[3], vtkGenericCell* cell,
                                            vtkIdType& cellId, int& subId, double& dist2, int& inside) override;

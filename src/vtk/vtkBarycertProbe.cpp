@@ -44,22 +44,6 @@ void vtkBarycertProbe::PrintSelf(ostream& os, vtkIndent indent) {
        << indent << "Exact: " << (Exact ? "yes" : "no") << "\n";
 }
 
-void vtkBarycertProbe::SetSourceData(vtkDataObject* source) {
-    SetInputData(1, source);
-}
-
-void vtkBarycertProbe::SetSourceConnection(vtkAlgorithmOutput* output) {
-    SetInputConnection(1, output);
-}
-
-vtkDataObject* vtkBarycertProbe::GetSource() {
-    return GetNumberOfInputConnections(1) > 0 ? GetInputDataObject(1, 0) : nullptr;
-}
-
-vtkIdTypeArray* vtkBarycertProbe::GetValidPoints() {
-    return ValidPoints;
-}
-
 // The output has the times of the source, whose values it shows.
 int vtkBarycertProbe::RequestInformation(vtkInformation* request, vtkInformationVector** inputs,
                                          vtkInformationVector* outputs) {
@@ -144,14 +128,6 @@ bool vtkBarycertProbe::Sample(vtkDataSet* input, vtkDataSet* source, vtkDataSet*
     }
     ListValidPoints(*arrays.mask());
     return true;
-}
-
-const char* vtkBarycertProbe::MaskName() const {
-    return ValidPointMaskArrayName != nullptr ? ValidPointMaskArrayName : "vtkValidPointMask";
-}
-
-double vtkBarycertProbe::OutsideValue() const {
-    return OutsideIsNaN ? std::numeric_limits<double>::quiet_NaN() : 0;
 }
 
 void vtkBarycertProbe::WarnOfInexact(const std::vector<std::string>& names) {

@@ -23,6 +23,7 @@
 #ifndef vtkBarycertProbe_h
 #define vtkBarycertProbe_h
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -39,9 +40,9 @@ public:
     void PrintSelf(ostream& os, vtkIndent indent) override;
 
     /// The mesh.
-    void SetSourceData(vtkDataObject* source);
-    void SetSourceConnection(vtkAlgorithmOutput* output);
-    vtkDataObject* GetSource();
+    void SetSourceData(vtkDataObject* source) { SetInputData(1, source); }
+    void SetSourceConnection(vtkAlgorithmOutput* output) { SetInputConnection(1, output); }
+    vtkDataObject* GetSource() { return GetNumberOfInputConnections(1) > 0 ? GetInputDataObject(1, 0) : nullptr; }
 
     /// Whether the active point scalars of the source are categories: of the vertex of greatest weight (the first of
     /// equal ones), and not interpolated. Off by default.
@@ -55,7 +56,7 @@ public:
     vtkBooleanMacro(SpatialMatch, vtkTypeBool);
 
     /// Ids of the points that have a value, ascending, of the last execution.
-    vtkIdTypeArray* GetValidPoints();
+    vtkIdTypeArray* GetValidPoints() { return ValidPoints; }
 
     /// Name of the array that has 1 for these and 0 for others: "vtkValidPointMask" by default.
     vtkSetStringMacro(ValidPointMaskArrayName);
@@ -107,8 +108,10 @@ protected:
     int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputs,
                             vtkInformationVector* outputs) override;
 
-    const char* MaskName() const;
-    double OutsideValue() const;
+    const char* MaskName() const {
+        return ValidPointMaskArrayName != nullptr ? ValidPointMaskArrayName : "vtkValidPointMask";
+    }
+    double OutsideValue() const { return OutsideIsNaN ? std::numeric_limits<double>::quiet_NaN() : 0; }
     void WarnOfInexact(const std::vector<std::string>& names);
     void ListValidPoints(vtkCharArray& mask);
     void PassArrays(vtkDataSet* input, vtkDataSet* output);

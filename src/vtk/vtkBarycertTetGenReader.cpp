@@ -74,14 +74,6 @@ void fill_grid(const Mesh& mesh, vtkUnstructuredGrid& grid) {
 
 vtkStandardNewMacro(vtkBarycertTetGenReader);
 
-vtkBarycertTetGenReader::vtkBarycertTetGenReader() {
-    SetNumberOfInputPorts(0);
-}
-
-vtkBarycertTetGenReader::~vtkBarycertTetGenReader() {
-    delete[] FileName;
-}
-
 void vtkBarycertTetGenReader::PrintSelf(ostream& os, vtkIndent indent) {
     Superclass::PrintSelf(os, indent);
     os << indent << "FileName: " << (FileName != nullptr ? FileName : "(none)") << "\n";

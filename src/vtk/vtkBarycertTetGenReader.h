@@ -30,8 +30,8 @@ public:
     int CanReadFile(const char* name);
 
 protected:
-    vtkBarycertTetGenReader();
-    ~vtkBarycertTetGenReader() override;
+    vtkBarycertTetGenReader() { SetNumberOfInputPorts(0); }
+    ~vtkBarycertTetGenReader() override { delete[] FileName; }
 
     int RequestData(vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 

@@ -147,10 +147,6 @@ vtkPBarycertProbe::vtkPBarycertProbe() {
     SetController(vtkMultiProcessController::GetGlobalController());
 }
 
-vtkPBarycertProbe::~vtkPBarycertProbe() {
-    SetController(nullptr);
-}
-
 void vtkPBarycertProbe::PrintSelf(ostream& os, vtkIndent indent) {
     Superclass::PrintSelf(os, indent);
     os << indent << "Controller: " << Controller << "\n"

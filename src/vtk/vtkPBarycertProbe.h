@@ -53,7 +53,7 @@ public:
 
 protected:
     vtkPBarycertProbe();
-    ~vtkPBarycertProbe() override;
+    ~vtkPBarycertProbe() override { SetController(nullptr); }
 
     vtkExecutive* CreateDefaultExecutive() override;
     int FillInputPortInformation(int port, vtkInformation* info) override;

@@ -9,6 +9,9 @@
 
 #include "barycert/base/random.hpp"
 #include "barycert/draw/colour_map.hpp"
+#include "barycert/draw/files.hpp"
+#include "barycert/draw/histogram.hpp"
+#include "barycert/draw/view.hpp"
 #include "io/tetgen/mesh_files.hpp"
 
 namespace barycert {
@@ -246,6 +249,178 @@ TEST(Figure, ArrowsPointAlongTheirVectors) {
     const auto e = extent(image, f.options.background);
     EXPECT_LT(e[0], 20);
     EXPECT_GT(e[1], 180);
+    // The same on a surface, and a disc.
+    const std::vector<double> square{0, -1, 10, -1, 10, 2, 0, 2}, middle{5, 0.5};
+    const std::vector<std::int32_t> triangles{0, 1, 2, 0, 2, 3};
+    f.surfaces = {{.points = square, .triangles = triangles}};
+    f.points = {{.points = middle, .size = 10, .colour = {0, 0, 0, 255}}};
+    const Image over = draw_figure(f).value();
+    const auto black = [](const Image& of) {
+        std::size_t count = 0;
+        for (std::int32_t k = 0; k < of.width * of.height; ++k)
+            count += of.pixel(k % of.width, k / of.width) == Rgba{0, 0, 0, 255} ? 1U : 0U;
+        return count;
+    };
+    EXPECT_NEAR(static_cast<double>(black(over)), static_cast<double>(black(image)) + 76, 20);
+}
+
+std::size_t count_of(const std::string& text, std::string_view what) {
+    std::size_t count = 0;
+    for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++count;
+    return count;
+}
+
+TEST(Figure, DiscsAreAsLargeWhereverTheyAre) {
+    // Three along the line of sight of a camera with perspective.
+    const std::vector<double> points{0, -1, 0, -20, 0, 0, 10, 1, 0.5};
+    for (const double resolution : {1.0, 2.0}) {
+        Figure f = bare({}, {301, 201});
+        f.surfaces.clear();
+        f.options.camera = {.azimuth = 0, .elevation = 0, .zoom = 0.8};
+        f.options.resolution = resolution;
+        f.points = {{.points = points, .size = 20, .colour = {0, 0, 200, 255}}};
+        const Image image = draw_figure(f).value();
+        std::size_t drawn = 0;
+        for (std::int32_t k = 0; k < image.width * image.height; ++k)
+            drawn += image.pixel(k % image.width, k / image.width) == f.options.background ? 0U : 1U;
+        // A disc of 20 pixels across has 314 of them, one of 16 sides 306.
+        EXPECT_NEAR(static_cast<double>(drawn), 3 * 306 * resolution * resolution, 12 * resolution);
+    }
+}
+
+TEST(Figure, DiscsHaveColoursOfValuesAndAreHidden) {
+    const std::vector<double> points{0, 0, 1, 0, 2, 0, 3, 0}, values{5, 7, std::nan(""), 9};
+    Figure f = bare({}, {200, 100}, 2);
+    f.surfaces.clear();
+    f.points = {{.points = points, .values = values, .size = 12}};
+    FigureCounts counts;
+    const Image image = draw_figure(f, &counts).value();
+    EXPECT_EQ(counts.low, 5);
+    EXPECT_EQ(counts.high, 9);
+    const draw::View view(f, f.options.size, 0.94);
+    const draw::ColourScale scale{.map = *draw::colour_map("viridis"), .low = 5, .high = 9};
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const draw::Pixel p = view.at({points[2 * i], points[2 * i + 1], 0});
+        EXPECT_EQ(image.pixel(static_cast<std::int32_t>(p.x), 100 - 1 - static_cast<std::int32_t>(p.y)),
+                  i == 2 ? scale.no_value : scale(values[i]));
+    }
+    f.options.bar = true;
+    f.options.size = {300, 200};
+    EXPECT_NE(draw_figure(f).value(), [&] {
+        Figure g = f;
+        g.points[0].values = std::span(values).first(2);
+        g.points[0].points = std::span(points).first(4);
+        return draw_figure(g).value();
+    }()) << "the bar tells of what has no value";
+
+    // Behind a square, on it, before it.
+    const std::vector<double> square{0, -1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1}, three{-1, -0.6, 0, 0, 0, 0, 1, 0.6, 0};
+    const std::vector<std::int32_t> triangles{0, 1, 2, 0, 2, 3};
+    Figure g = bare({.points = square, .triangles = triangles}, {101, 101});
+    std::tie(g.options.camera.azimuth, g.options.camera.elevation) = *angles_of("+x");
+    g.options.camera.parallel = true;
+    g.points = {{.points = three, .size = 9, .colour = {200, 0, 0, 255}}};
+    const Image seen = draw_figure(g).value();
+    const auto red = [&](std::int32_t first) {
+        std::size_t count = 0;
+        for (std::int32_t k = 0; k < 33 * 101; ++k) count += seen.pixel(first + k % 33, k / 33)[1] == 0 ? 1U : 0U;
+        return count;
+    };
+    EXPECT_EQ(red(0), 0U);
+    EXPECT_NEAR(static_cast<double>(red(34)), 62, 6);
+    EXPECT_NEAR(static_cast<double>(red(68)), 62, 6);
+}
+
+TEST(Figure, FlatOnesArePolygonsInFilesOfVectors) {
+    const TemporaryFolder folder;
+    const std::vector<double> points{0, 0, 1, 0, 1, 1, 0, 1}, values{1, 2, 3, 4}, two{1, 2};
+    const std::vector<std::int32_t> triangles{0, 1, 2, 0, 2, 3}, segments{0, 1, 1, 2};
+    Figure f{.dimension = 2, .surfaces = {{.points = points, .triangles = triangles, .triangle_values = two}}};
+    f.lines = {{.points = points, .segments = segments, .width = 2.5, .colour = {1, 2, 3, 255}}};
+    const auto svg = [&](const Figure& figure) {
+        write_figure(folder / "f.svg", figure).value();
+        return testing::get(folder / "f.svg");
+    };
+    const std::string flat = svg(f);
+    EXPECT_EQ(flat.find("<image"), flat.rfind("<image")) << "that of the bar alone";
+    EXPECT_EQ(count_of(flat, "stroke-width=\"0.4\""), 2U);
+    EXPECT_EQ(count_of(flat, "stroke=\"#010203\" stroke-width=\"2.5\""), 1U);
+    EXPECT_EQ(count_of(flat, "fill=\"#440154\" stroke=\"#440154\""), 1U) << "the first colour of viridis";
+    FigureCounts counts;
+    write_figure(folder / "f.pdf", f, &counts).value();
+    EXPECT_EQ(counts.render.drawn, 2U);
+    EXPECT_EQ(testing::get(folder / "f.pdf").find("/Subtype /Image"), std::string::npos);
+    // By the corners of a triangle, beyond the window, too many, in space: an image.
+    Figure g = f;
+    g.surfaces = {{.points = points, .triangles = triangles, .point_values = values}};
+    EXPECT_EQ(count_of(svg(g), "stroke-width=\"0.4\""), 0U);
+    g = f;
+    g.options.camera.zoom = 2;
+    EXPECT_EQ(count_of(svg(g), "stroke-width=\"0.4\""), 0U);
+    std::vector<std::int32_t> many;
+    for (int i = 0; i < 10000; ++i) many.insert(many.end(), {0, 1, 1, 0, 1, 1});
+    g = f;
+    g.surfaces = {{.points = points, .triangles = many}};
+    EXPECT_EQ(count_of(svg(g), "stroke-width=\"0.4\""), 0U);
+    g.surfaces[0].triangles = std::span(many).first(many.size() - 3);
+    EXPECT_EQ(count_of(svg(g), "stroke-width=\"0.4\""), 19999U);
+}
+
+TEST(Figure, BoxesHaveNoEdgesBeforeTheMesh) {
+    std::vector<double> corners;
+    for (int i = 0; i < 24; ++i) corners.push_back((i / 3 >> i % 3 & 1) != 0 ? 1 : -1);
+    Figure f = bare({}, {300, 300});
+    f.surfaces.clear();
+    f.points = {{.points = corners, .size = 0}};
+    f.options.axes = Axes::box;
+    for (const auto& [azimuth, elevation] : {std::pair(30.0, 25.0), {120, 40}, {-50, 20}, {200, -30}}) {
+        f.options.camera.azimuth = azimuth;
+        f.options.camera.elevation = elevation;
+        const Image image = draw_figure(f).value();
+        const draw::View view(f, f.options.size, 0.76);
+        const auto drawn = [&](double sign) {
+            const Vector3 towards = draw::ViewAxes(f.options.camera).towards;
+            Vector3 corner;
+            for (std::size_t k = 0; k < 3; ++k) corner[k] = (towards[k] < 0 ? -1 : 1) * sign;
+            const draw::Pixel p = view.at(corner);
+            std::size_t count = 0;
+            for (std::int32_t k = 0; k < 9; ++k) {
+                const auto x = static_cast<std::int32_t>(p.x) + k % 3 - 1,
+                           y = 299 - static_cast<std::int32_t>(p.y) + k / 3 - 1;
+                count += image.pixel(x, y) == f.options.background ? 0U : 1U;
+            }
+            return count;
+        };
+        EXPECT_EQ(drawn(1), 0U) << azimuth;
+        EXPECT_GT(drawn(-1), 2U) << azimuth;
+    }
+}
+
+TEST(Histograms, AreBarsOfCounts) {
+    const draw::Histogram h{.title = "what",
+                            .x = {.low = 2, .high = 5, .title = "size"},
+                            .counts = {1, 0, 400},
+                            .counted = "rows",
+                            .range = [](std::size_t i) { return "bin " + std::to_string(i); },
+                            .bad = [](std::size_t i) { return i == 2; }};
+    const draw::Picture one = draw::histogram(h);
+    std::vector<const draw::PictureItem*> bars;
+    for (const draw::PictureItem& item : one.items)
+        if (item.kind == draw::PictureItem::Kind::bar) bars.push_back(&item);
+    ASSERT_EQ(bars.size(), 2U);
+    EXPECT_EQ(bars[0]->text, "bin 0: 1 row");
+    EXPECT_EQ(bars[1]->text, "bin 2: 400 rows");
+    EXPECT_EQ(bars[1]->style, "bar bad");
+    EXPECT_GE(bars[0]->height, 5) << "by logarithm";
+    EXPECT_NEAR(bars[1]->height, 174, 1e-9);
+    EXPECT_NEAR(bars[1]->width, 440 / 3.0 - 1, 1e-9);
+    const draw::Picture all = draw::in_rows({one, one, one}, "three");
+    EXPECT_EQ(all.width, 2 * one.width + 12);
+    EXPECT_EQ(all.items.size(), 3 * one.items.size() + 1);
+    EXPECT_TRUE(draw::file_text("a.pdf", all).value().starts_with("%PDF-"));
+    EXPECT_TRUE(draw::file_text("a.png", all).value().starts_with("\x89PNG"));
+    EXPECT_TRUE(draw::file_text("-", all).value().starts_with("<svg"));
+    EXPECT_EQ(draw::in_rows({one}, "one").width, one.width + 12);
 }
 
 TEST(Figure, FilesAreWrittenBySuffix) {
@@ -309,6 +484,10 @@ TEST(Figure, BadInputIsAnError) {
     refused([](Figure&, S&, O& o) { o.size = {500, 10}; });
     refused([&](Figure& f, S&, O&) { f.lines = {{.points = points, .segments = beyond}}; });
     refused([&](Figure& f, S&, O&) { f.arrows = {{.points = points, .vectors = two}}; });
+    refused([&](Figure& f, S&, O&) { f.points = {{.points = two}}; });
+    refused([&](Figure& f, S&, O&) { f.points = {{.points = points, .values = two}}; });
+    refused([&](Figure& f, S&, O&) { f.points = {{.points = bad}}; });
+    refused([&](Figure& f, S&, O&) { f.points = {{.points = points, .size = -1}}; });
     refused([&](Figure& f, S&, O&) { f.grid = {.width = 1, .height = 1}; });
 }
 

@@ -58,10 +58,22 @@ def test_scenes(mesh):
     grey = pixels(mesh.plot(size=(200, 150))._repr_png_())
     for options in (
         {"field": "T"}, {"field": "|v|"}, {"threshold": ("T", 0.3, 1)}, {"slices": [((0, 0, 1), 0.5)], "outline": True},
-        {"field": "T", "iso": [0.5]}, {"arrows": "v", "arrow_count": 20}, {"marked": [0, 5]}, {"camera": (10, 80)},
+        {"field": "T", "iso": [0.5]}, {"arrows": "v", "arrow_count": 20}, {"arrows": "v", "field": "T", "surface": False},
+        {"points": [[1.1, 0.5, 0.5]], "point_size": 20}, {"marked": [0, 5]}, {"camera": (10, 80)},
         {"background": (0, 0, 0, 255)}, {"box": ((0.4, 0.4, 0.4), (2, 2, 2))}, {"axes": "box"}, {"parallel": True},
     ):  # fmt: skip
         assert (pixels(mesh.plot(size=(200, 150), **options)._repr_png_()) != grey).any(), options
+
+
+def test_points_have_colours_of_values(mesh):
+    points = np.array([[0.2, 0.5, 0.5], [0.9, 0.5, 0.5], [5, 0.5, 0.5]])
+    options = {"surface": False, "bar": False, "axes": "none", "view": "+z", "parallel": True, "size": (200, 60), "samples": 1}
+    shown = pixels(mesh.plot("T", points=points, point_size=8, range=(0, 1), **options)._repr_png_())
+    colours = np.unique(shown.reshape(-1, 3), axis=0)
+    assert len(colours) == 4, "a colour for each point, and the ground"
+    for point in ([[0.2, 0.5]], "T"):
+        with pytest.raises(barycert.Error):
+            mesh.plot("T", points=point)
 
 
 def test_what_cannot_be_drawn(mesh):

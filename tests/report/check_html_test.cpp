@@ -20,7 +20,7 @@ namespace barycert::report_test {
 namespace {
 
 using report::BinRule;
-using report::Histogram;
+using report::Bins;
 using report::Vector;
 using Kind = BinRule::Kind;
 
@@ -76,7 +76,7 @@ Mesh scaled(Mesh mesh, double factor) {
     return mesh;
 }
 
-std::uint64_t all(const Histogram& h) {
+std::uint64_t all(const Bins& h) {
     std::uint64_t sum = h.unknown + h.infinite + h.zero;
     for (const std::uint64_t c : h.counts) sum += c;
     return sum;
@@ -116,7 +116,7 @@ TEST(Histogram, EveryValueIsCountedOnce) {
     };
     for (const std::vector<double>& values : samples) {
         for (const Kind kind : {Kind::given, Kind::linear, Kind::logarithmic, Kind::chosen}) {
-            const Histogram h = report::histogram(values, {kind, 0, 10, 0.5});
+            const Bins h = report::bins_of(values, {kind, 0, 10, 0.5});
             EXPECT_EQ(all(h), values.size());
             EXPECT_GE(h.counts.size(), 1U);
             EXPECT_TRUE(std::isfinite(h.low) && std::isfinite(h.high()) && h.width > 0);
@@ -126,18 +126,18 @@ TEST(Histogram, EveryValueIsCountedOnce) {
 }
 
 TEST(Histogram, BinsAreRoundAndWhereTheyShouldBe) {
-    const Histogram given = report::histogram({0, 1.9, 2, 71.9, 80}, {Kind::given, 0, 72, 2});
+    const Bins given = report::bins_of({0, 1.9, 2, 71.9, 80}, {Kind::given, 0, 72, 2});
     ASSERT_EQ(given.counts.size(), 36U);
     EXPECT_EQ(given.counts[0], 2U);
     EXPECT_EQ(given.counts[1], 1U);
     EXPECT_EQ(given.counts[35], 2U);  // 80 as well
-    const Histogram plain = report::histogram({1, 10}, {.kind = Kind::chosen});
+    const Bins plain = report::bins_of({1, 10}, {.kind = Kind::chosen});
     EXPECT_FALSE(plain.logarithmic);
     EXPECT_DOUBLE_EQ(plain.width, 0.2);
-    const Histogram wide = report::histogram({1, 1e6}, {.kind = Kind::chosen});
+    const Bins wide = report::bins_of({1, 1e6}, {.kind = Kind::chosen});
     EXPECT_TRUE(wide.logarithmic);
     EXPECT_EQ(wide.counts.front(), 1U);
-    const Histogram flat = report::histogram({0, 1, 100}, {.kind = Kind::logarithmic});
+    const Bins flat = report::bins_of({0, 1, 100}, {.kind = Kind::logarithmic});
     EXPECT_EQ(flat.zero, 1U);
 }
 
@@ -182,7 +182,7 @@ TEST(View, ScaleDoesNotMatter) {
 
 TEST(View, AFlatCellIsSeenFlatFromTheSide) {
     const std::vector<Vector> flat{{-1, -1, 0}, {1, -1, 1e-6}, {1, 1, 0}, {-1, 1, 1e-6}};
-    const report::View side = report::from_the_side(flat), above = report::from_above(flat);
+    const report::View side = report::broad_view(flat, 0), above = report::broad_view(flat, 1);
     for (const Vector& p : flat) EXPECT_LT(std::fabs(side(p)[1]), 1e-5);
     EXPECT_GT(std::fabs(above.z[2]), 0.999);
     const auto edge = report::sharpest_edge(flat);

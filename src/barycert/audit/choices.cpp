@@ -219,11 +219,9 @@ Result<GapsReport> gaps_file(const GapsJob& job) try {
 Result<GapsLimit> parse_gaps_limit(std::string_view text) {
     const base::NamedLimit limit = base::named_limit(text);
     std::vector<std::string> names;
-    for (std::size_t f = 0; f < claim_fault_count; ++f) {
-        const auto fault = static_cast<ClaimFault>(f);
-        if (name(fault) == limit.name && limit.most) return GapsLimit{fault, *limit.most};
-        names.emplace_back(name(fault));
-    }
+    for (std::size_t f = 0; f < claim_fault_count; ++f) names.emplace_back(name(static_cast<ClaimFault>(f)));
+    const auto fault = std::ranges::find(names, limit.name) - names.begin();
+    if (fault != std::ssize(names) && limit.most) return GapsLimit{static_cast<ClaimFault>(fault), *limit.most};
     return file_error({}, "unknown rule", "gaps, several, wrong, wrong_first or outside_claimed, perhaps >NUMBER",
                       '"' + std::string(text) + '"', base::did_you_mean(limit.name, names));
 }

@@ -31,17 +31,15 @@ Draw draw_of_nodes(const PreparedMesh& from, Mesh::Index cell, std::array<Mesh::
                    base::Random& random) {
     Draw draw{&from, cell, nodes, {.simplex = s}};
     const Mesh& mesh = from.mesh;
-    const auto d = static_cast<std::size_t>(mesh.dimension);
     const Field* const field =
         mesh.point_fields.empty() ? nullptr : &mesh.point_fields[random.below(mesh.point_fields.size())];
     const std::size_t components = field == nullptr ? 1 : static_cast<std::size_t>(field->components);
     const std::size_t component = random.below(components);
     for (int i = 0; i < vertex_count(s); ++i) {
-        const auto node = static_cast<std::size_t>(nodes[static_cast<std::size_t>(i)]);
-        for (int axis = 0; axis < space_dimension(s); ++axis)
-            draw.simplex.vertex(i, axis) = mesh.points[node * d + static_cast<std::size_t>(axis)];
+        const Mesh::Index node = nodes[static_cast<std::size_t>(i)];
+        std::copy_n(mesh.point(node), mesh.dimension, &draw.simplex.vertex(i, 0));
         double& value = draw.simplex.values[static_cast<std::size_t>(i)];
-        if (field != nullptr) value = field->data[node * components + component];
+        if (field != nullptr) value = field->data[static_cast<std::size_t>(node) * components + component];
         if (field == nullptr || !std::isfinite(value)) value = random.uniform(-1, 1);
     }
     return draw;

@@ -13,11 +13,9 @@ GapPoints::GapPoints(const Mesh& mesh)
 
 Case GapPoints::case_of(Mesh::Index cell, const std::array<double, 3>& point) const {
     Case c{.simplex = mesh_.dimension == 2 ? Simplex::triangle : Simplex::tetrahedron, .point = point};
-    const auto corners = mesh_.corners(), d = static_cast<std::size_t>(mesh_.dimension);
-    for (std::size_t i = 0; i < corners; ++i) {
-        const auto node = static_cast<std::size_t>(mesh_.cells[static_cast<std::size_t>(cell) * corners + i]);
-        std::copy_n(&mesh_.points[node * d], d, &c.vertices[i * d]);
-    }
+    double* to = c.vertices.data();
+    for (const Mesh::Index node : mesh_.corners_of(static_cast<std::size_t>(cell)))
+        to = std::copy_n(mesh_.point(node), mesh_.dimension, to);
     return c;
 }
 

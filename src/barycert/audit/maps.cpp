@@ -54,8 +54,7 @@ MeshFrame best_frame(const Locator& locator, const PreparedMesh& m, int threads)
             planes.emplace_back(static_cast<double>(inside) * sides, f);
         }
     }
-    const double most =
-        std::ranges::max_element(planes, [](const auto& a, const auto& b) { return a.first < b.first; })->first;
+    const double most = std::ranges::max_element(planes, {}, &std::pair<double, MeshFrame>::first)->first;
     return std::ranges::find_if(planes, [&](const auto& p) { return !(p.first < most / 2); })->second;
 }
 
@@ -80,9 +79,8 @@ void add_cases(const PreparedMesh& m, Mesh::Index cell, std::uint64_t seed, std:
     c.point = random_point(c, random, count);
     cases.push_back(c);
     for (std::size_t facet = 0; facet < n; ++facet) {
-        const std::array<double, 4> on = random_weights(random, count - 1);
-        std::array<double, 4> w{};
-        for (std::size_t i = 0, k = 0; i < n; ++i) w[i] = i == facet ? 0 : on[k++];
+        std::array<double, 4> w = random_weights(random, count - 1);
+        std::rotate(&w[facet], &w[n - 1], &w[n - 1] + 1);  // the last one, 0, to the vertex off the facet
         c.point = combination(c, w, count);
         cases.push_back(c);
         const auto axis = static_cast<std::size_t>(random.below(static_cast<std::uint64_t>(m.mesh.dimension)));

@@ -34,16 +34,11 @@ void add(DriftPoint& point, double value, double exact, std::uint64_t index) {
 /// Vertex 2 is the one off the side; the others lie in x = y.
 constexpr std::size_t apex = 2;
 
-std::size_t place(int i, int j) {
-    return static_cast<std::size_t>(j) * SignPicture::side + static_cast<std::size_t>(i);
-}
-
 SignPicture exact_picture(Simplex s, bool perspective) {
     SignPicture picture{.kernel = {}, .simplex = s, .perspective = perspective, .signs = {}, .wrong = 0};
-    picture.signs.resize(std::size_t{SignPicture::side} * SignPicture::side);
     for (int j = 0; j < SignPicture::side; ++j) {
         for (int i = 0; i < SignPicture::side; ++i)
-            picture.signs[place(i, j)] = ask_oracle(sign_case(s, perspective, i, j)).signs[apex];
+            picture.signs.push_back(ask_oracle(sign_case(s, perspective, i, j)).signs[apex]);
     }
     return picture;
 }
@@ -59,15 +54,15 @@ SignPicture picture_of(const Kernel& kernel, const SignPicture& exact) {
     picture.kernel = kernel.name;
     std::vector<Case> cases(SignPicture::side);
     std::vector<Statement> statements(SignPicture::side);
+    auto sign = picture.signs.begin();
     for (int j = 0; j < SignPicture::side; ++j) {
         for (int i = 0; i < SignPicture::side; ++i)
             cases[static_cast<std::size_t>(i)] = sign_case(kernel.simplex, kernel.perspective, i, j);
         ask_kernel(kernel, cases, statements, false);
-        for (int i = 0; i < SignPicture::side; ++i) {
-            std::int8_t& sign = picture.signs[place(i, j)];
-            const std::int8_t seen = sign_of(statements[static_cast<std::size_t>(i)]);
-            picture.wrong += seen != sign ? 1 : 0;
-            sign = seen;
+        for (const Statement& said : statements) {
+            const std::int8_t seen = sign_of(said);
+            picture.wrong += seen != *sign ? 1 : 0;
+            *sign++ = seen;
         }
     }
     return picture;
@@ -141,8 +136,7 @@ std::vector<SignPicture> sign_pictures(const std::vector<Kernel>& kernels) {
             return p.kernel.empty() && p.simplex == k.simplex && p.perspective == k.perspective;
         });
         if (exact == pictures.end()) exact = pictures.insert(exact, exact_picture(k.simplex, k.perspective));
-        const SignPicture of = *exact;
-        pictures.push_back(picture_of(k, of));
+        pictures.push_back(picture_of(k, *exact));
     }
     return pictures;
 }

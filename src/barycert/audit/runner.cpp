@@ -63,13 +63,10 @@ void collect_witnesses(KernelResult& result, const AuditOptions& options, const 
 }
 
 /// False certificates first, then by the share of wrong cases, then by the worst error.
-bool worse(const KernelResult& a, const KernelResult& b) {
-    const auto badness = [](const KernelStatistics& s) {
-        const double share = s.cases == 0 ? 0.0 : static_cast<double>(s.wrong_cases) / static_cast<double>(s.cases);
-        return std::tuple(s.counts[static_cast<std::size_t>(Finding::false_certificate)] != 0, share,
-                          s.weight_ulp.value);
-    };
-    return badness(a.total) > badness(b.total);
+auto how_bad(const KernelResult& k) {
+    const KernelStatistics& s = k.total;
+    const double share = s.cases == 0 ? 0.0 : static_cast<double>(s.wrong_cases) / static_cast<double>(s.cases);
+    return std::tuple(s.counts[static_cast<std::size_t>(Finding::false_certificate)] != 0, share, s.weight_ulp.value);
 }
 
 }  // namespace
@@ -77,16 +74,14 @@ bool worse(const KernelResult& a, const KernelResult& b) {
 Result<AuditReport> run_audit(const AuditOptions& options, const MeshSource& meshes) {
     const ExactEnvironment exact;
     AuditReport report;
-    report.environment = measure_environment();
+    static_cast<AuditRun&>(report) = {measure_environment(), options.seed, options.count,
+                                      base::threads_for(options.threads)};
     if (const Status ok = check_environment(report.environment); !ok) return ok.error();
     const std::vector<Part> parts = plan(options, meshes);
     if (parts.empty())
         return Error{
             .what = "nothing to audit: no family applies to a kernel",
             .remedy = "see `barycert kernels` and `barycert families`; mesh families of triangles need a 2D mesh"};
-    report.seed = options.seed;
-    report.count = options.count;
-    report.threads = base::threads_for(options.threads);
     report.oracle = options.oracle;
     report.families = options.families;
     for (const auto& m : meshes.meshes()) {
@@ -148,7 +143,7 @@ Result<AuditReport> run_audit(const AuditOptions& options, const MeshSource& mes
     }
     // Kernels that no family applied to say nothing.
     std::erase_if(report.kernels, [](const KernelResult& r) { return r.total.cases + r.total.not_run == 0; });
-    std::ranges::stable_sort(report.kernels, worse);
+    std::ranges::stable_sort(report.kernels, std::greater<>(), how_bad);
     report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return report;
 }

@@ -11,10 +11,8 @@ namespace {
 /// That a rule of this name is on: any but not_run.
 std::optional<std::size_t> figure_named(std::string_view name) {
     if (name == "any") name = figures().front().name;
-    for (std::size_t f = 0; f < figures().size(); ++f) {
-        if (figures()[f].name == name && (f == 0 || f >= first_finding)) return f;
-    }
-    return std::nullopt;
+    const auto f = static_cast<std::size_t>(std::ranges::find(figures(), name, &Figure::name) - figures().begin());
+    return f == 0 || (f >= first_finding && f < figures().size()) ? std::optional(f) : std::nullopt;
 }
 
 double as_rules_have_it(std::size_t figure, const KernelStatistics& s) {

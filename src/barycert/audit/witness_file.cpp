@@ -42,11 +42,9 @@ std::uint64_t count_or(const Json& object, const char* key, std::uint64_t otherw
 
 std::string text_of_witnesses(const std::vector<const Witness*>& witnesses) {
     const ExactEnvironment environment;
-    Ordered list = Ordered::array(), out;
+    Ordered list = Ordered::array();
     for (const Witness* const w : witnesses) list.push_back(witness_json(*w));
-    out["schema"] = witness_schema;
-    out["witnesses"] = std::move(list);
-    return base::json_text(out, 1);
+    return base::json_text({{"schema", witness_schema}, {"witnesses", list}}, 1);
 }
 
 Witness witness_from(const Json& j, const std::string& where) {
@@ -106,9 +104,8 @@ std::string not_reproduced(const Replay& r, const std::vector<Kernel>& kernels) 
     }
     // Errors come out the same wherever the kernel was compiled to the same arithmetic.
     const bool relative = reason == witness_reasons;
-    const double error = relative                  ? relative_error(r.exact, a->comparison)
-                         : reason == finding_count ? a->comparison.worst_weight_ulp()
-                                                   : a->comparison.value_ulp;
+    const Evaluation e{{}, r.exact, a->comparison, relative_error(r.exact, a->comparison), {}};
+    const double error = magnitude(reason, e);
     if (error == w.magnitude) return "";
     return "the error is " + base::shortest(error) + (relative ? "" : " ulps") + ", not " + base::shortest(w.magnitude);
 }

@@ -126,6 +126,23 @@ std::string shell_word(std::string_view text) {
     return word + "'";
 }
 
+std::string brief_count(std::uint64_t n) {
+    if (n == 0) return "-";
+    if (n < 10000) return std::to_string(n);
+    double x = static_cast<double>(n);
+    for (const char* unit : {"k", "M", "G", "T"}) {
+        x /= 1000;
+        if (x < 999.5) return fmt::format("{:.{}f}{}", x, x < 9.995 ? 2 : x < 99.95 ? 1 : 0, unit);
+    }
+    return fmt::format("{:.1e}", static_cast<double>(n));
+}
+
+std::string grouped(std::uint64_t n) {
+    std::string digits = std::to_string(n);
+    for (std::size_t i = digits.size(); i > 3; i -= 3) digits.insert(i - 3, ",");
+    return digits;
+}
+
 }  // namespace barycert::base
 
 namespace barycert {

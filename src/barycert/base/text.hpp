@@ -56,6 +56,12 @@ std::string joined(const Items& items, std::string_view between, Text text) {
     return all;
 }
 
+/// At most five characters: "-", "9999", "12.3k", "229k", "1.32M".
+std::string brief_count(std::uint64_t n);
+
+/// "1,234,567".
+std::string grouped(std::uint64_t n);
+
 /// "1 row", "2 rows": the plural is the singular and an s, if none is given.
 inline std::string counted(std::uint64_t n, std::string_view one, std::string_view more = {}) {
     const std::string number = std::to_string(n) + ' ';

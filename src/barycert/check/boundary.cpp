@@ -1,6 +1,5 @@
-#include <numeric>
-
 #include "barycert/base/disjoint_sets.hpp"
+#include "barycert/base/lists.hpp"
 #include "barycert/check/stages.hpp"
 #include "barycert/index/ridges.hpp"
 
@@ -92,24 +91,20 @@ private:
 
     /// A facet of each piece; the volume each encloses, and their sum.
     std::vector<std::uint32_t> gather_pieces() {
-        std::vector<std::uint32_t> order(facets_.size());
-        std::iota(order.begin(), order.end(), 0U);
-        std::vector<std::uint32_t> root(facets_.size());
-        for (std::size_t f = 0; f < facets_.size(); ++f) root[f] = piece_.find(f);
-        std::ranges::stable_sort(order, [&](auto a, auto b) { return root[a] < root[b]; });
+        const base::Lists<std::uint32_t> by_lowest(facets_.size(), [&](const auto& add) {
+            for (std::uint32_t f = 0; f < facets_.size(); ++f) add(piece_.find(f), f);
+        });
         std::vector<std::uint32_t> pieces;
         Integer all;
-        for (std::size_t i = 0; i < order.size();) {
-            const std::size_t begin = i;
-            const std::uint32_t first = order[i];
+        for (std::size_t lowest = 0; lowest < by_lowest.size(); ++lowest) {
+            const std::span piece = by_lowest[lowest];
+            if (piece.empty()) continue;
             Integer enclosed;
-            for (; i < order.size() && root[order[i]] == root[first]; ++i) {
-                const PlacedFacet f = placed(c_.mesh, facets_[order[i]]);
-                enclosed = enclosed + c_.volumes.cone(f.at.data());
-            }
-            pieces.push_back(first);
+            for (const std::uint32_t f : piece)
+                enclosed = enclosed + c_.volumes.cone(placed(c_.mesh, facets_[f]).at.data());
+            pieces.push_back(piece[0]);
             cavities_ += enclosed.sign() < 0 ? 1 : 0;
-            if (enclosed.sign() < 0 && i - begin == c_.mesh.corners()) add_missing_cell(first, order[begin + 1]);
+            if (enclosed.sign() < 0 && piece.size() == c_.mesh.corners()) add_missing_cell(piece[0], piece[1]);
             all = all + enclosed;
         }
         c_.report.volume = {c_.volumes.rounded(c_.total), c_.volumes.rounded(all), (c_.total - all).sign() == 0};

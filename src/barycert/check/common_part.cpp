@@ -75,7 +75,7 @@ void add_extreme_points(const std::vector<Vector>& a, const std::vector<Vector>&
 
 /// As many of the points as span what all of them do: those whose homogeneous coordinates do not depend on those of the
 /// ones before, by elimination.
-std::vector<Point> spanning(int d, const std::vector<Point>& points) {
+std::vector<Point> spanning(std::size_t d, const std::vector<Point>& points) {
     struct Row {
         std::array<Number, 4> at;
         std::size_t pivot;
@@ -94,7 +94,7 @@ std::vector<Point> spanning(int d, const std::vector<Point>& points) {
         if (pivot == 4) continue;
         rows.push_back({v, pivot});
         chosen.push_back(p);
-        if (chosen.size() == static_cast<std::size_t>(d) + 1) break;
+        if (chosen.size() == d + 1) break;
     }
     return chosen;
 }
@@ -144,28 +144,22 @@ Fraction dyadic(double x) {
 bool lies_in(Simplex s, const Corners& cell, const double* point, bool inside) {
     const int d = space_dimension(s);
     double vertices[12];
-    for (int i = 0; i < vertex_count(s); ++i) {
-        for (int k = 0; k < d; ++k) vertices[i * d + k] = cell[static_cast<std::size_t>(i)][k];
-    }
+    for (int i = 0; i < vertex_count(s); ++i) std::copy_n(cell[static_cast<std::size_t>(i)], d, vertices + i * d);
     const auto signs = checked_weight_signs(s, vertices, point);
     if (s == Simplex::triangle3d && orient3d(vertices, vertices + 3, vertices + 6, point) != Sign::zero) return false;
     return signs && (inside ? signs->feature(s) == Feature::interior : signs->contains());
 }
 
 CellContact common_part(Simplex simplex, const CellPair& cells, const Corners& a, const Corners& b) {
-    const int d = space_dimension(simplex);
+    const auto d = static_cast<std::size_t>(space_dimension(simplex)),
+               n = static_cast<std::size_t>(vertex_count(simplex));
     std::array<core::Unit, 3> units;
-    const auto for_coordinates = [&](const Corners& cell, const auto& visit) {
-        for (std::size_t i = 0; i < static_cast<std::size_t>(vertex_count(simplex)); ++i) {
-            for (std::size_t k = 0; k < static_cast<std::size_t>(d); ++k) visit(i, k, cell[i][k]);
-        }
-    };
-    for (const Corners& cell : {a, b})
-        for_coordinates(cell, [&](std::size_t, std::size_t k, double x) { units[k].add(x); });
+    for (const Corners& cell : {a, b}) {
+        for (std::size_t i = 0; i < n * d; ++i) units[i % d].add(cell[i / d][i % d]);
+    }
     const auto whole = [&](const Corners& cell) {
-        std::vector<Vector> corners(static_cast<std::size_t>(vertex_count(simplex)));
-        for_coordinates(cell,
-                        [&](std::size_t i, std::size_t k, double x) { corners[i][k] = core::whole(x, units[k]); });
+        std::vector<Vector> corners(n);
+        for (std::size_t i = 0; i < n * d; ++i) corners[i / d][i % d] = core::whole(cell[i / d][i % d], units[i % d]);
         return corners;
     };
     const std::vector<Vector> p = whole(a), q = whole(b);
@@ -173,9 +167,7 @@ CellContact common_part(Simplex simplex, const CellPair& cells, const Corners& a
     add_extreme_points(p, q, all);
     add_extreme_points(q, p, all);
     const std::vector<Point> points = spanning(d, all);
-    const int dimension = static_cast<int>(points.size()) - 1;
-    const int full = vertex_count(simplex) - 1;
-    CellContact contact{cells, dimension == full, dimension, {}};
+    CellContact contact{cells, points.size() == n, static_cast<int>(points.size()) - 1, {}};
     if (points.empty()) return contact;
     // What the two have in common is the convex hull of all points: the mean of some that span it is in its relative
     // interior.
@@ -188,7 +180,7 @@ CellContact common_part(Simplex simplex, const CellPair& cells, const Corners& a
     CommonPoint& common = contact.common;
     bool finite = true, short_enough = true;
     std::vector<Fraction> means;
-    for (std::size_t k = 0; k < static_cast<std::size_t>(d); ++k) {
+    for (std::size_t k = 0; k < d; ++k) {
         const Fraction& mean = means.emplace_back(sum.x[k], denominator, units[k].power());
         common.point[k] = mean.rounded();
         finite = finite && std::isfinite(common.point[k]);

@@ -28,10 +28,8 @@ ExactVolumes::ExactVolumes(int d, std::span<const double> points) : d_(d) {
     for (std::size_t i = 0; i < points.size(); ++i) {
         if (std::isfinite(points[i])) units_[i % axes].add(core::scaled(points[i]));
     }
-    for (std::size_t k = 0; k < axes; ++k) {
-        bits_ = std::max(bits_, units_[k].bits());
-        exponent_ += units_[k].exponent - 1074;
-    }
+    bits_ = core::max_bits(units_);
+    for (std::size_t k = 0; k < axes; ++k) exponent_ += units_[k].exponent - 1074;
 }
 
 /// With the narrowest integers that have room: with coordinates below 2^(64 N - 3) in N limbs a difference is below

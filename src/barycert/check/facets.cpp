@@ -191,19 +191,17 @@ std::vector<std::uint8_t> faces_of_cells(const Mesh& mesh, const std::vector<std
         }
     });
     std::vector<std::uint8_t> found(mesh.face_count(), 0);
-    const auto meet = [&](const Triple& sorted) {
-        for (const Face& face : by_lowest_node[static_cast<std::size_t>(sorted[0])]) {
-            if (face.nodes == sorted) std::atomic_ref(found[face.index]).store(1, std::memory_order_relaxed);
-        }
-    };
     base::parallel_for_each(mesh.cell_count(), 4096, [&](std::size_t cell) {
         if (usable[cell] == 0) return;
         std::array<Mesh::Index, 4> n{};
         std::copy_n(&mesh.cells[4 * cell], 4, n.begin());
         std::ranges::sort(n);
         for (const Triple& facet :
-             {Triple{n[0], n[1], n[2]}, {n[0], n[1], n[3]}, {n[0], n[2], n[3]}, {n[1], n[2], n[3]}})
-            meet(facet);
+             {Triple{n[0], n[1], n[2]}, {n[0], n[1], n[3]}, {n[0], n[2], n[3]}, {n[1], n[2], n[3]}}) {
+            for (const Face& face : by_lowest_node[static_cast<std::size_t>(facet[0])]) {
+                if (face.nodes == facet) std::atomic_ref(found[face.index]).store(1, std::memory_order_relaxed);
+            }
+        }
     });
     return found;
 }

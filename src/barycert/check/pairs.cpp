@@ -31,15 +31,14 @@ Found<Pair> conflicts(int d, const std::vector<Item>& items, Conflict conflict, 
     });
 }
 
-/// The nodes of f within g, or within an edge of it: not those at the place of a node of g.
+}  // namespace
+
 void add_hanging(int d, const PlacedFacet& f, const PlacedFacet& g, Mesh::Index cell, std::vector<HangingNode>& all) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(d); ++i) {
         const auto face = face_around(d, g, f.at[i]);
         if (face[1] >= 0) all.push_back({f.nodes[i], face, cell});
     }
 }
-
-}  // namespace
 
 void sort_hanging(std::vector<HangingNode>& all) {
     std::ranges::sort(all, {}, [](const HangingNode& h) { return std::tie(h.node, h.face, h.cell); });

@@ -265,6 +265,9 @@ struct HangingNode {
     double distance = 0;                          ///< from it, rounded
 };
 
+/// The nodes of f within g, or within an edge of it: not those at the place of a node of g. `cell`: that of g.
+void add_hanging(int d, const PlacedFacet& f, const PlacedFacet& g, Mesh::Index cell, std::vector<HangingNode>& all);
+
 /// By node and face; of those with the same the first cell's.
 void sort_hanging(std::vector<HangingNode>& all);
 

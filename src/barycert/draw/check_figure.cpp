@@ -58,6 +58,16 @@ Status check_arrows(const FigureArrows& a, std::size_t d) {
     return Done{};
 }
 
+Status check_discs(const FigurePoints& p, std::size_t d) {
+    constexpr std::size_t most = 5'000'000;
+    if (Status good = check_points(p.points, d, "discs"); !good) return good;
+    const std::size_t count = p.points.size() / d;
+    if (count > most || (!p.values.empty() && p.values.size() != count) || !(p.size >= 0 && p.size <= 1000))
+        return refusal("discs", fmt::format("at most {} points, a value each or none, 0 to 1000 pixels", most),
+                       fmt::format("{} points, {} values, {} pixels", count, p.values.size(), p.size));
+    return Done{};
+}
+
 Status check_grid(const FigureGrid& g) {
     if (g.width < 1 || g.height < 1 || std::max(g.width, g.height) > io::longest_png_side)
         return refusal("a grid of that size cannot be a picture",
@@ -91,7 +101,10 @@ Status check(const Figure& f) {
     }
     for (const FigureArrows& a : f.arrows)
         if (Status good = check_arrows(a, d); !good) return good;
-    if (f.grid && (f.dimension != 2 || !f.surfaces.empty() || !f.lines.empty() || !f.arrows.empty()))
+    for (const FigurePoints& p : f.points)
+        if (Status good = check_discs(p, d); !good) return good;
+    if (f.grid &&
+        (f.dimension != 2 || !f.surfaces.empty() || !f.lines.empty() || !f.arrows.empty() || !f.points.empty()))
         return refusal("a figure of a grid", "one in the plane, of nothing else", "more");
     if (f.grid)
         if (Status good = check_grid(*f.grid); !good) return good;

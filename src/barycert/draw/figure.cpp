@@ -36,12 +36,10 @@ Status write(const std::string& path, Figure figure, FigureCounts& counts) {
     const bool pixels = io::has_suffix(path, ".png");
     if (pixels && figure.grid && !o.bar && o.axes == Axes::none && o.title.empty() && o.resolution == 1)
         return write_rows(path, figure, counts);
-    constexpr double dots = 300 / 96.0;
-    if (!pixels) o.samples = std::min(o.samples, 2);  // of more pixels
-    const double resolution = pixels ? o.resolution : dots;
-    const Result<Picture> picture = laid_out(figure, resolution, counts);
-    if (picture) counts.size = size_of(*picture, pixels ? resolution : 1);
-    return picture ? write_picture(path, *picture, o.background, resolution) : Status(picture.error());
+    if (!pixels) o.resolution = 300 / 96.0, o.samples = std::min(o.samples, 2);  // of more pixels
+    const Result<Picture> picture = laid_out(figure, !pixels, counts);
+    if (picture) counts.size = size_of(*picture, pixels ? o.resolution : 1);
+    return picture ? write_picture(path, *picture, o.background, o.resolution) : Status(picture.error());
 }
 
 }  // namespace
@@ -65,12 +63,11 @@ Result<Image> draw_figure(const Figure& figure, FigureCounts* counts) {
     const ExactEnvironment environment;
     if (Status good = draw::check(figure); !good) return good.error();
     FigureCounts told;
-    const double resolution = figure.options.resolution;
-    const Result<draw::Picture> picture = draw::laid_out(figure, resolution, told);
+    const Result<draw::Picture> picture = draw::laid_out(figure, false, told);
     if (!picture) return picture.error();
-    told.size = draw::size_of(*picture, resolution);
+    told.size = draw::size_of(*picture, figure.options.resolution);
     if (counts != nullptr) *counts = told;
-    return draw::drawn(*picture, figure.options.background, resolution);
+    return draw::drawn(*picture, figure.options.background, figure.options.resolution);
 }
 
 bool is_figure_name(std::string_view path) {

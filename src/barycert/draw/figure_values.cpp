@@ -47,6 +47,8 @@ Result<ColourScale> scale_of(const Figure& figure, FigureCounts& counts) {
         }
         for (const FigureArrows& a : figure.arrows)
             for (const double x : a.values) f(x);
+        for (const FigurePoints& p : figure.points)
+            for (const double x : p.values) f(x);
         for (std::size_t i = 0; figure.grid && i < figure.grid->values.size(); ++i)
             if (is_drawn(*figure.grid, false, i)) f(figure.grid->values[i]);
     };

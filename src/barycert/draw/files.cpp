@@ -117,11 +117,13 @@ private:
         switch (item.kind) {
             case Kind::lines:
                 for (const auto& line : item.lines) trace(line);
-                return stroke(look);
+                return stroke(look, item.width > 0 ? item.width : look.line);
             case Kind::area:
                 for (const auto& line : item.lines) trace(line);
                 cairo_close_path(to_.get());
-                return cairo_fill(to_.get());
+                cairo_fill_preserve(to_.get());
+                cairo_set_line_width(to_.get(), item.width);
+                return item.width > 0 ? cairo_stroke(to_.get()) : cairo_new_path(to_.get());
             case Kind::bar:
                 cairo_rectangle(to_.get(), item.at.x, item.at.y, item.width, item.height);
                 return cairo_fill(to_.get());
@@ -140,10 +142,10 @@ private:
             (i == 0 ? cairo_move_to : cairo_line_to)(to_.get(), line[i].x, line[i].y);
     }
 
-    void stroke(const Look& look) {
+    void stroke(const Look& look, double width) {
         const double dash[2] = {look.on, look.off};
         cairo_set_dash(to_.get(), dash, look.on > 0 ? 2 : 0, 0);
-        cairo_set_line_width(to_.get(), look.line);
+        cairo_set_line_width(to_.get(), width);
         cairo_stroke(to_.get());
     }
 
@@ -246,13 +248,15 @@ Result<Image> drawn(const Picture& picture, Rgba ground, double scale) {
     return image;
 }
 
+Result<std::string> file_text(std::string_view path, const Picture& picture, Rgba ground, double scale) {
+    if (io::has_suffix(path, ".pdf")) return pdf_text(picture, ground);
+    if (!io::has_suffix(path, ".png")) return svg_text(picture, ground);
+    const Result<Image> image = drawn(picture, ground, scale);
+    return image ? png_text(*image) : Result<std::string>(image.error());
+}
+
 Status write_picture(const std::string& path, const Picture& picture, Rgba ground, double scale) {
-    if (io::has_suffix(path, ".png")) {
-        const Result<Image> image = drawn(picture, ground, scale);
-        return image ? write_png(path, *image) : Status(image.error());
-    }
-    Result<std::string> text =
-        io::has_suffix(path, ".pdf") ? pdf_text(picture, ground) : Result<std::string>(svg_text(picture, ground));
+    const Result<std::string> text = file_text(path, picture, ground, scale);
     if (!text) return text.error();
     base::OutputFile file(path);
     file.write(*text);

@@ -21,11 +21,12 @@ Rgba ink(const FigureOptions& o) {
 
 class Layout {
 public:
-    Layout(const Figure& figure, double resolution, FigureCounts& counts)
+    Layout(const Figure& figure, bool vectors, FigureCounts& counts)
         : f_(figure),
           o_(f_.options),
           picture_(o_.size.width, o_.size.height, o_.title.empty() ? "a mesh" : o_.title),
-          resolution_(resolution),
+          resolution_(o_.resolution),
+          vectors_(vectors),
           counts_(counts) {}
 
     Result<Picture> run() {
@@ -82,8 +83,12 @@ public:
                                   fmt::format("{} by {}", window.width, window.height), "choose a smaller size");
             const bool box = f_.dimension == 3 && o_.axes == Axes::box && add_box();
             const View view(f_, window, part_of(f_));
-            auto image = std::make_shared<Image>(view.draw(*scale, counts_));
-            picture_.place({x0, y0}, window.width / resolution_, window.height / resolution_, std::move(image));
+            if (vectors_ && view.is_flat()) {
+                view.draw(picture_, {x0, y0}, *scale, counts_);
+            } else {
+                auto image = std::make_shared<Image>(view.draw(*scale, counts_));
+                picture_.place({x0, y0}, window.width / resolution_, window.height / resolution_, std::move(image));
+            }
             if (plane) draw_plane_axes({view.seen(0), view.seen(1)}, {x0, y0}, {x0 + wide, y0 + tall});
             if (box) draw_box_numbers(view);
             const bool triad = o_.axes == Axes::triad || o_.axes == Axes::automatic;
@@ -132,12 +137,14 @@ private:
     bool has_none() const {
         if (f_.grid) return false;  // nothing is drawn there
         const auto none = [&](double x) { return !std::isfinite(x) || (o_.log && !(x > 0)); };
-        return std::ranges::any_of(f_.surfaces, [&](const FigureSurface& s) {
-            return std::ranges::any_of(s.triangle_values, none) ||
-                   (!s.point_values.empty() && std::ranges::any_of(s.triangles, [&](std::int32_t i) {
-                       return none(s.point_values[static_cast<std::size_t>(i)]);
-                   }));
-        });
+        const auto in_points = [&](const FigurePoints& p) { return std::ranges::any_of(p.values, none); };
+        return std::ranges::any_of(f_.points, in_points) ||
+               std::ranges::any_of(f_.surfaces, [&](const FigureSurface& s) {
+                   return std::ranges::any_of(s.triangle_values, none) ||
+                          (!s.point_values.empty() && std::ranges::any_of(s.triangles, [&](std::int32_t i) {
+                              return none(s.point_values[static_cast<std::size_t>(i)]);
+                          }));
+               });
     }
 
     void draw_plane_axes(const std::array<std::array<double, 2>, 2>& ends, Pixel from, Pixel to) {
@@ -165,15 +172,18 @@ private:
         draw_axes(picture_, x, y);
     }
 
-    /// The box of what is drawn, as lines; false if there is nothing.
+    /// The box of what is drawn, as lines, but for those in front, at the nearest corner; false if there is nothing.
     bool add_box() {
         const Space space(f_);
         if (space.box[0].empty()) return false;
+        const Vector3 towards = ViewAxes(o_.camera).towards;
+        unsigned nearest = 0;
+        for (unsigned k = 0; k < 3; ++k) nearest |= towards[k] < 0 ? 0U : 1U << k;
         for (unsigned i = 0; i < 8; ++i) {
             const Vector3 at = space.corner(i);
             corners_.insert(corners_.end(), at.begin(), at.end());
             for (unsigned k = 0; k < 3; ++k)
-                if ((i >> k & 1U) == 0)
+                if ((i >> k & 1U) == 0 && i != nearest && (i | 1U << k) != nearest)
                     edges_.insert(edges_.end(), {static_cast<int>(i), static_cast<int>(i | 1U << k)});
         }
         f_.lines.push_back({.points = corners_, .segments = edges_, .width = 1, .colour = ink(o_)});
@@ -243,6 +253,7 @@ private:
     const FigureOptions& o_;
     Picture picture_;
     double resolution_;
+    bool vectors_;
     FigureCounts& counts_;
     std::optional<RasterSize> window_;
     double least_tall_ = 0;  ///< of the room for the bar
@@ -253,8 +264,8 @@ private:
 
 }  // namespace
 
-Result<Picture> laid_out(const Figure& figure, double resolution, FigureCounts& counts) {
-    return Layout(figure, resolution, counts).run();
+Result<Picture> laid_out(const Figure& figure, bool vectors, FigureCounts& counts) {
+    return Layout(figure, vectors, counts).run();
 }
 
 }  // namespace barycert::draw

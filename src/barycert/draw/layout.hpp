@@ -9,8 +9,8 @@ namespace barycert::draw {
 /// Whether the figure can be drawn.
 Status check(const Figure& figure);
 
-/// The window with what the camera sees, axes, the colour bar, the title. `resolution`: pixels of the image in it for
-/// one of the picture. Precondition: check(figure).
-Result<Picture> laid_out(const Figure& figure, double resolution, FigureCounts& counts);
+/// The window with what the camera sees, axes, the colour bar, the title. `vectors`: what can be polygons is.
+/// Precondition: check(figure).
+Result<Picture> laid_out(const Figure& figure, bool vectors, FigureCounts& counts);
 
 }  // namespace barycert::draw

@@ -16,7 +16,7 @@ struct Named {
 
 constexpr Rgba ink{34, 34, 34, 255}, pale{228, 232, 235, 255}, soft{89, 99, 108, 255}, soft_pale{163, 173, 181, 255};
 
-constexpr std::array<Named, 10> looks{{
+constexpr std::array<Named, 13> looks{{
     {"head", ink, pale, 0, 0, 0, 16},
     {"title", ink, pale, 0, 0, 0, 14},
     {"small", soft, soft_pale, 0, 0, 0, 12},
@@ -27,6 +27,9 @@ constexpr std::array<Named, 10> looks{{
     {"prediction", {0, 0, 0, 255}, {255, 255, 255, 255}, 2},
     {"level", {136, 136, 136, 255}, {136, 136, 136, 255}, 0, 8, 4},
     {"thick", ink, pale, 1.6},
+    {"bar", {0, 114, 178, 255}, {86, 180, 233, 255}},
+    {"bad", {200, 16, 46, 255}, {255, 107, 125, 255}},
+    {"count", soft, soft_pale, 0, 0, 0, 9},
 }};
 
 struct Rectangle {
@@ -98,6 +101,15 @@ Look look_of(std::string_view classes, bool dark) {
         if (named->size > 0) look.size = named->size;
     }
     return look;
+}
+
+void Picture::add(const Picture& other, Pixel corner) {
+    for (PictureItem item : other.items) {
+        item.at = {item.at.x + corner.x, item.at.y + corner.y};
+        for (std::vector<Pixel>& line : item.lines)
+            for (Pixel& p : line) p = {p.x + corner.x, p.y + corner.y};
+        items.push_back(std::move(item));
+    }
 }
 
 void Picture::mark(Pixel at, Mark mark, double r, const std::string& style) {

@@ -25,7 +25,7 @@ struct PictureItem {
     std::string style = {};                      ///< classes; "m" and "e" are the anchors middle and end of a text
     std::vector<std::vector<Pixel>> lines = {};  ///< of an area one, closed
     Pixel at = {};                               ///< the upper left corner, the centre, or where the text stands
-    double width = 0, height = 0;                ///< of a circle its radius
+    double width = 0, height = 0;                ///< of a circle its radius; of lines that of a line, if not 0
     std::string text = {};                       ///< or what a page tells when it is pointed at
     bool upwards = false;                        ///< text
     std::optional<Rgba> colour = {};             ///< in place of the look's
@@ -80,6 +80,8 @@ public:
                          .text = std::move(text),
                          .upwards = upwards});
     }
+    /// The items of another one, from there on.
+    void add(const Picture& other, Pixel corner);
     /// "pixels": they stay squares, however large.
     void place(Pixel corner, double wide, double tall, std::shared_ptr<const Image> image, std::string style = {}) {
         items.push_back({.kind = PictureItem::Kind::image,

@@ -40,7 +40,10 @@ private:
         }
         const Look l = look_of(item.style, is_dark(*ground_));
         const Rgba colour = item.colour.value_or(l.colour);
-        if (paint == Paint::fill) return fmt::format(" fill=\"{}\"{}", colour_text(colour), opacity(colour));
+        const bool edged = item.kind == PictureItem::Kind::area && item.width > 0;
+        if (paint == Paint::fill)
+            return fmt::format(" fill=\"{}\"{}", colour_text(colour), opacity(colour)) +
+                   (edged ? fmt::format(" stroke=\"{}\" stroke-width=\"{:g}\"", colour_text(colour), item.width) : "");
         if (paint == Paint::text) {
             const std::string_view anchor = l.anchor == 'm'   ? " text-anchor=\"middle\""
                                             : l.anchor == 'e' ? " text-anchor=\"end\""
@@ -48,7 +51,7 @@ private:
             return fmt::format(" font-size=\"{:g}\" fill=\"{}\"{}", l.size, colour_text(colour), anchor);
         }
         return fmt::format(" fill=\"none\" stroke=\"{}\" stroke-width=\"{:g}\" stroke-linejoin=\"round\"{}",
-                           colour_text(colour), l.line,
+                           colour_text(colour), item.width > 0 ? item.width : l.line,
                            l.on > 0 ? fmt::format(" stroke-dasharray=\"{:g} {:g}\"", l.on, l.off) : "");
     }
     static std::string opacity(Rgba c) {
@@ -93,8 +96,11 @@ private:
 
     void add_path(const PictureItem& item) {
         const bool closed = item.kind == PictureItem::Kind::area;
+        const int decimals = item.width > 0 ? 3 : 1;
         const std::string path = base::joined(item.lines, "", [&](const std::vector<Pixel>& line) {
-            return "M" + base::joined(line, "L", [](Pixel p) { return fmt::format("{:.1f} {:.1f}", p.x, p.y); }) +
+            return "M" +
+                   base::joined(line, "L",
+                                [&](Pixel p) { return fmt::format("{:.{}f} {:.{}f}", p.x, decimals, p.y, decimals); }) +
                    (closed ? "Z" : "");
         });
         out_ += fmt::format("<path{} d=\"{}\"/>\n", look(item, closed ? Paint::fill : Paint::stroke), path);

@@ -29,7 +29,7 @@ double longest_of(const FigureArrows& a, std::size_t d) {
     return most;
 }
 
-/// f(point) of all that a figure draws: corners of triangles, ends of lines, both ends of arrows.
+/// f(point) of all that a figure draws: corners of triangles, ends of lines, both ends of arrows, centres of discs.
 template <class F>
 void for_points(const Figure& figure, F f) {
     const auto d = static_cast<std::size_t>(figure.dimension);
@@ -37,6 +37,8 @@ void for_points(const Figure& figure, F f) {
         for (const std::int32_t i : s.triangles) f(s.points.data() + d * static_cast<std::size_t>(i));
     for (const FigureLines& l : figure.lines)
         for (const std::int32_t i : l.segments) f(l.points.data() + d * static_cast<std::size_t>(i));
+    for (const FigurePoints& p : figure.points)
+        for (std::size_t i = 0; i < p.points.size(); i += d) f(p.points.data() + i);
     for (const FigureArrows& a : figure.arrows) {
         const double most = longest_of(a, d);
         for (std::size_t i = 0; i < a.points.size(); i += d) {
@@ -62,7 +64,7 @@ Matrix4 fitting_camera(const Figure& figure, const Space& space, const ViewAxes&
     const Vector3 &r = axes.right, &u = axes.up, &t = axes.towards;
     const FigureCamera& camera = figure.options.camera;
     Matrix4 projection;
-    double distance = z.high + 0.1;
+    double distance = z.high + (camera.parallel ? 1 : 0.1);
     if (camera.parallel) {
         double half = std::max(x.half() / aspect, y.half()) / part;
         if (!(half > 0)) half = 1;
@@ -121,10 +123,16 @@ struct Paint {
 /// All that is drawn, by normalised points.
 class Parts {
 public:
-    Parts(const Figure& figure, const Space& space, const ViewAxes& axes, const ColourScale& scale)
-        : d_(static_cast<std::size_t>(figure.dimension)), space_(space), light_(light_of(axes)), scale_(scale) {
+    Parts(const Figure& figure, const View& view, const ColourScale& scale)
+        : d_(static_cast<std::size_t>(figure.dimension)), view_(view), light_(light_of(view.axes())), scale_(scale) {
         for (const FigureSurface& s : figure.surfaces) add(s);
         for (const FigureArrows& a : figure.arrows) add(a);
+        for (const FigurePoints& p : figure.points) add(p);
+    }
+
+    Vector3 point(std::int32_t i) const {
+        const double* const p = &positions[4 * static_cast<std::size_t>(i)];
+        return {p[0], p[1], p[2]};
     }
 
     std::vector<double> positions = {};  ///< x, y, z, 1
@@ -138,10 +146,6 @@ private:
         positions.insert(positions.end(), {p[0], p[1], p[2], 1});
         values.push_back(value);
     }
-    Vector3 point(std::int32_t i) const {
-        const double* const p = &positions[4 * static_cast<std::size_t>(i)];
-        return {p[0], p[1], p[2]};
-    }
     void add_triangle(const std::array<std::int32_t, 3>& corners, const std::optional<Rgba>& colour) {
         triangles.insert(triangles.end(), corners.begin(), corners.end());
         const double shade = d_ == 2 ? 1 : brightness(point(corners[0]), point(corners[1]), point(corners[2]), light_);
@@ -151,7 +155,7 @@ private:
     void add(const FigureSurface& s) {
         const auto first = static_cast<std::int32_t>(values.size());
         for (std::size_t i = 0; i < s.points.size() / d_; ++i)
-            add_point(space_(s.points.data() + d_ * i), s.point_values.empty() ? 0 : s.point_values[i]);
+            add_point(view_.space()(s.points.data() + d_ * i), s.point_values.empty() ? 0 : s.point_values[i]);
         for (std::size_t t = 0; t < s.triangles.size(); t += 3) {
             std::array<std::int32_t, 3> corners{};
             bool finite = true;
@@ -172,18 +176,46 @@ private:
         }
     }
 
+    /// As large in pixels wherever they are.
+    void add(const FigurePoints& f) {
+        constexpr std::int32_t sides = 16;
+        const auto& [right, up, towards] = view_.axes();
+        for (std::size_t i = 0; i < f.points.size(); i += d_) {
+            Vector3 at = view_.space()(f.points.data() + i);
+            const double lift = d_ == 2 ? before : std::min(0.5 * f.size * view_.pixel_at(at), 0.05);
+            for (std::size_t j = 0; j < 3; ++j) at[j] += lift * towards[j];
+            const double radius = 0.5 * f.size * view_.pixel_at(at);
+            Rgba colour = f.colour;
+            if (!f.values.empty()) {
+                const double x = f.values[i / d_];
+                colour = std::isfinite(x) ? scale_(x) : scale_.no_value;
+            }
+            const auto first = static_cast<std::int32_t>(values.size());
+            for (std::int32_t k = 0; k < sides; ++k) {
+                const double turn = 2 * std::numbers::pi * k / sides;
+                Vector3 p;
+                for (std::size_t j = 0; j < 3; ++j)
+                    p[j] = at[j] + radius * (std::cos(turn) * right[j] + std::sin(turn) * up[j]);
+                add_point(p, 0);
+                if (k > 1) add_triangle({first, first + k - 1, first + k}, colour);
+            }
+        }
+    }
+
     /// A shaft and a head of some sides; in the plane both are flat.
     void add(const FigureArrows& a) {
         const double most = longest_of(a, d_);
         for (std::size_t i = 0; most > 0 && i < a.points.size(); i += d_) {
             const double* const v = a.vectors.data() + i;
             // Not so long that it overflows.
-            const double own = length_of(v, d_), length = std::min(own / most * a.longest / space_.half, 0x1p20);
+            const double own = length_of(v, d_), length = std::min(own / most * a.longest / view_.space().half, 0x1p20);
             if (!(length > 0)) continue;
             const Rgba colour = a.values.empty() ? a.colour : scale_(a.values[i / d_]);
             Vector3 along{};
             for (std::size_t k = 0; k < d_; ++k) along[k] = v[k] / own;
-            add_arrow(space_(a.points.data() + i), along, length, colour);
+            Vector3 from = view_.space()(a.points.data() + i);
+            if (d_ == 2) from[2] = before;
+            add_arrow(from, along, length, colour);
         }
     }
 
@@ -217,8 +249,9 @@ private:
         }
     }
 
+    static constexpr double before = 0x1p-10;  ///< in the plane, what lies on a surface
     std::size_t d_;
-    const Space& space_;
+    const View& view_;
     Vector3 light_;
     const ColourScale& scale_;
 };
@@ -244,16 +277,62 @@ ViewAxes::ViewAxes(const FigureCamera& camera) {
 }
 
 View::View(const Figure& figure, RasterSize window, double part)
-    : figure_(figure), window_(window), space_(figure), axes_(figure.options.camera) {
+    : figure_(figure),
+      window_(window),
+      space_(figure),
+      axes_(figure.dimension == 2 ? FigureCamera{.azimuth = -90, .elevation = 90} : figure.options.camera) {
     const double aspect = 1.0 * window.width / window.height;
     to_clip_ = figure.dimension == 2 ? fitting_map(space_, aspect, part, figure.options.camera.zoom)
                                      : fitting_camera(figure, space_, axes_, aspect, part);
 }
 
-Pixel View::at(const Vector3& point) const {
-    const auto [x, y, z] = space_(point.data());
+Pixel View::seen(const Vector3& normalised) const {
+    const auto& [x, y, z] = normalised;
     const auto p = raster::in_clip_space(std::array{x, y, z, 1.0}, to_clip_, Rounding::plain);
     return {(p[0] / p[3] + 1) * 0.5 * window_.width, (1 - p[1] / p[3]) * 0.5 * window_.height};
+}
+
+double View::pixel_at(const Vector3& normalised) const {
+    const std::array<double, 16>& m = to_clip_.m;
+    const double w = dot({m[12], m[13], m[14]}, normalised) + m[15];
+    return 2 * figure_.options.resolution * w / (window_.height * dot({m[4], m[5], m[6]}, axes_.up));
+}
+
+bool View::is_flat() const {
+    constexpr std::size_t most = 20'000;
+    std::size_t triangles = 0;
+    for (const FigureSurface& s : figure_.surfaces) {
+        if (!s.point_values.empty()) return false;
+        triangles += s.triangles.size() / 3;
+    }
+    return figure_.dimension == 2 && figure_.options.camera.zoom <= 1 && triangles < most;
+}
+
+void View::draw(Picture& to, Pixel corner, const ColourScale& scale, FigureCounts& counts) const {
+    const Parts all(figure_, *this, scale);
+    const auto on_page = [&](const Vector3& at) {
+        const Pixel p = seen(at);
+        return Pixel{corner.x + p.x / figure_.options.resolution, corner.y + p.y / figure_.options.resolution};
+    };
+    for (std::size_t t = 0; t < all.paints.size(); ++t) {
+        std::vector<Pixel> polygon;
+        for (std::size_t c = 0; c < 3; ++c) polygon.push_back(on_page(all.point(all.triangles[3 * t + c])));
+        to.area(std::move(polygon), "", all.paints[t].colour);
+        to.items.back().width = 0.4;  // programs that show it would let the ground through between neighbours
+    }
+    for (const FigureLines& l : figure_.lines) {
+        std::vector<std::pair<Pixel, Pixel>> segments;
+        const auto end = [&](std::size_t i) {
+            return on_page(space_(&l.points[2 * static_cast<std::size_t>(l.segments[i])]));
+        };
+        for (std::size_t i = 0; i + 1 < l.segments.size(); i += 2) segments.emplace_back(end(i), end(i + 1));
+        to.lines(segments, "");
+        if (segments.empty()) continue;
+        to.items.back().width = l.width;
+        to.items.back().colour = l.colour;
+    }
+    counts.without_value = all.without_value;
+    counts.render.triangles = counts.render.drawn = all.paints.size();
 }
 
 std::array<double, 2> View::seen(std::size_t axis) const {
@@ -262,7 +341,7 @@ std::array<double, 2> View::seen(std::size_t axis) const {
 }
 
 Image View::draw(const ColourScale& scale, FigureCounts& counts) const {
-    const Parts parts(figure_, space_, axes_, scale);
+    const Parts parts(figure_, *this, scale);
     const FigureOptions& o = figure_.options;
     std::vector<raster::Line> lines;
     const auto add = [&](const FigureLines& of) {

@@ -47,15 +47,23 @@ public:
     View(const Figure& figure, RasterSize window, double part);
 
     /// Where a point is, from the upper left corner of the window.
-    Pixel at(const Vector3& point) const;
+    Pixel at(const Vector3& point) const { return seen(space_(point.data())); }
+    /// The height of a pixel of the figure there, in the normalised unit.
+    double pixel_at(const Vector3& normalised) const;
     /// What the window shows of an axis of the plane.
     std::array<double, 2> seen(std::size_t axis) const;
     const Space& space() const { return space_; }
     const ViewAxes& axes() const { return axes_; }
 
     Image draw(const ColourScale& scale, FigureCounts& counts) const;
+    /// True if it can be polygons, as write_figure says.
+    bool is_flat() const;
+    /// As polygons and lines, with the window's corner there.
+    void draw(Picture& to, Pixel corner, const ColourScale& scale, FigureCounts& counts) const;
 
 private:
+    Pixel seen(const Vector3& normalised) const;
+
     const Figure& figure_;
     RasterSize window_;
     Space space_;

@@ -88,6 +88,9 @@ inline std::string suffix_of(const std::string& path) {
     const std::size_t dot = path.find_last_of("./");
     return dot == std::string::npos || path[dot] == '/' ? "" : path.substr(dot);
 }
+inline std::string stem_of(const std::string& path) {
+    return path.substr(0, path.size() - suffix_of(path).size());
+}
 Error unknown_suffix(const std::string& path, std::string what, std::string expected, std::string remedy);
 
 inline bool is_vtk_file(std::string_view path) {

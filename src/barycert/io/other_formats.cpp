@@ -86,10 +86,6 @@ const OtherFormat* container(std::string_view path, std::string_view suffixes, s
 
 using base::shell_word;
 
-std::string stem_of(const std::string& path) {
-    return path.substr(0, path.size() - suffix_of(path).size());
-}
-
 /// x.vtu of x.vtu.xz; plain-x.vtu of x.vtu.
 std::string unpacked_name(const std::string& path) {
     for (const std::string_view suffix : {".bz2", ".xz", ".zst"}) {

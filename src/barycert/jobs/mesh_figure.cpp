@@ -13,6 +13,7 @@
 #include "barycert/jobs/job_files.hpp"
 #include "barycert/mesh/part.hpp"
 #include "barycert/mesh/pulling.hpp"
+#include "barycert/sampler.hpp"
 #include "barycert/surface/edges.hpp"
 
 namespace barycert::jobs {
@@ -163,8 +164,9 @@ CutOptions MeshFigure::carried() {
 }
 
 viewer::PageScene MeshFigure::page(const FigureOptions& options) const {
-    if (!figure_.arrows.empty() || options.labels)
-        refuse("", "pages have neither arrows nor labels", "surfaces and lines", "", "name a .png, .svg or .pdf file");
+    if (!figure_.arrows.empty() || !figure_.points.empty() || options.labels)
+        refuse("", "pages have no arrows, points or labels", "surfaces and lines", "",
+               "name a .png, .svg or .pdf file");
     viewer::PageScene scene{mesh_, drawn_, {}, {}, shown_.field, nodes_, figure(options)};
     const auto add = [](std::vector<const Field*>& to, const std::vector<Field>& fields) {
         for (const Field& f : fields) to.push_back(&f);
@@ -221,9 +223,10 @@ void MeshFigure::add_mesh() {
     }
     if (!show_.marked.empty()) add_marked();
     if (!show_.arrows.empty()) add_arrows();
+    if (!show_.points.empty()) add_points();
     if (show_.outline || !show_.marked.empty()) add_outline();
-    if (figure_.surfaces.empty() && figure_.lines.empty() && figure_.arrows.empty())
-        refuse("", "nothing to draw", "a surface, lines or arrows", "none of these");
+    if (figure_.surfaces.empty() && figure_.lines.empty() && figure_.arrows.empty() && figure_.points.empty())
+        refuse("", "nothing to draw", "a surface, lines, arrows or points", "none of these");
 }
 
 void MeshFigure::add_cut(Surface surface, const char* what) {
@@ -353,14 +356,33 @@ void MeshFigure::add_arrows() {
         }
         if (finite) boxes.try_emplace(box, node);
     }
-    std::vector<double>&points = numbers_.emplace_back(), &numbers = numbers_.emplace_back();
+    const bool by_value = figure_.surfaces.empty() && shown_.field != nullptr;
+    if (by_value && shown_.of_cells)
+        refuse("", "arrows have colours of a field of nodes", "one", base::quoted(colours_));
+    std::vector<double>&points = numbers_.emplace_back(), &numbers = numbers_.emplace_back(),
+    &values = numbers_.emplace_back();
     for (const auto& [box, node] : boxes) {
         for (std::size_t k = 0; k < d; ++k) {
             points.push_back(mesh_->points[d * node + k]);
             numbers.push_back(found->data[d * node + k]);
         }
+        if (by_value) values.push_back(shown_.field->data[node]);
     }
-    figure_.arrows.push_back({.points = points, .vectors = numbers, .longest = 1.2 * side, .colour = dark_grey});
+    figure_.arrows.push_back(
+        {.points = points, .vectors = numbers, .values = values, .longest = 1.2 * side, .colour = dark_grey});
+}
+
+/// Sampled in what is drawn of the mesh.
+void MeshFigure::add_points() {
+    FigurePoints& of = figure_.points.emplace_back(
+        FigurePoints{.points = show_.points, .size = show_.point_size, .colour = dark_grey});
+    if (shown_.field == nullptr) return;
+    const Locator locator = Locator::build(*mesh_, {.straight_sides = true, .threads = threads_}).value();
+    const Table rows = Sampler::build(locator, {shown_}).value().sample(show_.points, {.threads = threads_}).value();
+    of.values = numbers_.emplace_back(rows.values);
+    if (const std::uint64_t none = rows.counts.locations.outside; none != 0)
+        notes_.push_back({.text = fmt::format("values of {} of {} points, which lie in no cell that is drawn: grey",
+                                              none, rows.cells.size())});
 }
 
 }  // namespace barycert::jobs

@@ -36,6 +36,7 @@ private:
     CutOptions carried();
     void add_cut(Surface surface, const char* what);
     void add_arrows();
+    void add_points();
     void add_marked();
     void add_lines(const std::vector<double>& points, std::vector<std::int32_t> segments, double width, Rgba colour);
     void add_edges(const Surface& surface);

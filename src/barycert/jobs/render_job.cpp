@@ -165,7 +165,14 @@ void draw_mesh(const RenderJob& job, RenderReport& report) {
     report.method = job.figure.method;
     report.rounding = job.figure.rounding;
     try {
-        jobs::MeshFigure figure(mesh, job.show, job.field, job.threads, report.notes);
+        SceneChoice show = job.show;
+        if (!job.points.empty()) {
+            const std::unique_ptr<PointSource> points = open_points(job.points, mesh.dimension).value();
+            std::ranges::copy(points->notes(), std::back_inserter(report.notes));
+            while (points->read(1U << 20, show.points).value() != 0) continue;
+            if (show.points.empty()) refuse(job.points, "there are no points to draw", "", "");
+        }
+        jobs::MeshFigure figure(mesh, show, job.field, job.threads, report.notes);
         jobs::tell_stage(job, "drawing");
         figure.add_mesh();
         FigureOptions options = job.figure;
@@ -218,7 +225,7 @@ Image draw_scene(const RenderJob& job, RenderReport& report) {
 }
 
 std::vector<base::NamedFile> inputs_of(const RenderJob& job) {
-    if (job.picture == PictureKind::mesh) return jobs::input_files(job);
+    if (job.picture == PictureKind::mesh) return jobs::input_files(job, {{"job.points", job.points}});
     std::vector<base::NamedFile> inputs{{"job.image", job.image}};
     if (job.picture != PictureKind::scene) return inputs;
     inputs.push_back({"the scene", job.scene});

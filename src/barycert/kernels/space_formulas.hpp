@@ -11,11 +11,7 @@ namespace {
 template <class T>
 int signed_length(const T* v, const T* p, T* w, int axis) {
     const T xa = v[axis], xb = v[3 + axis], xp = p[axis];
-    const T whole = xb - xa;
-    if (whole == 0) return 1;
-    w[0] = (xb - xp) / whole;
-    w[1] = (xp - xa) / whole;
-    return 0;
+    return over(xb - xa, {xb - xp, xp - xa}, w);
 }
 
 template <class T>

@@ -124,24 +124,19 @@ std::uint32_t place_of(std::uint32_t code, std::size_t axis) {
     return code >> (8 * axis) & 0xFFU;
 }
 
-Box box_of_nodes(const Mesh& mesh) {
-    const auto d = static_cast<std::size_t>(mesh.dimension);
-    return base::parallel_reduce(
-        mesh.point_count(), nodes_at_once, empty_box,
-        [&](std::size_t begin, std::size_t end, Box& box) {
-            for (std::size_t i = begin; i != end; ++i) {
-                std::array<double, 3> node{};
-                std::copy_n(mesh.points.data() + d * i, d, node.begin());
-                box.add({node, node});
-            }
-        },
-        [](Box& all, const Box& part) { all.add(part); });
-}
-
 /// Those in the box of the nodes: no cell holds another, and one far away would make the bins large.
 std::vector<double> points_in_box(const Mesh& mesh, std::span<const double> points) {
     const auto d = static_cast<std::size_t>(mesh.dimension);
-    const Box box = box_of_nodes(mesh);
+    const Box box = base::parallel_reduce(
+        mesh.point_count(), nodes_at_once, empty_box,
+        [&](std::size_t begin, std::size_t end, Box& part) {
+            for (std::size_t i = begin; i != end; ++i) {
+                std::array<double, 3> node{};
+                std::copy_n(mesh.points.data() + d * i, d, node.begin());
+                part.add({node, node});
+            }
+        },
+        [](Box& all, const Box& part) { all.add(part); });
     std::vector<double> inside;
     for (std::size_t i = 0; i + d <= points.size(); i += d) {
         bool in = true;

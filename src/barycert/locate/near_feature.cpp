@@ -112,9 +112,7 @@ std::uint64_t root_of(core::UInt128 x) {
 NearFeature NearCell::feature(unsigned mask) const {
     NearFeature f;
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-        if ((mask >> i & 1) == 0) continue;
-        f.nodes[static_cast<std::size_t>(f.count)] = nodes[i];
-        f.at[static_cast<std::size_t>(f.count++)] = at[i];
+        if ((mask >> i & 1) != 0) f.add(nodes[i], at[i].data());
     }
     return f;
 }

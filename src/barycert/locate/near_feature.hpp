@@ -20,6 +20,12 @@ struct NearFeature {
     std::array<Mesh::Index, 3> nodes{-1, -1, -1};  ///< ascending; none if the point itself is in the cell
     std::array<Point3, 3> at{};
 
+    /// Behind those that are there. `point`: of `d` coordinates.
+    void add(Mesh::Index node, const double* point, std::size_t d = 3) {
+        const auto i = static_cast<std::size_t>(count++);
+        nodes[i] = node;
+        std::copy_n(point, d, at[i].begin());
+    }
     /// Of what its corners span, if they are two or three, in space.
     Simplex simplex() const { return count == 3 ? Simplex::triangle3d : Simplex::segment; }
     std::array<double, 9> vertices() const {
@@ -28,6 +34,16 @@ struct NearFeature {
         return all;
     }
 };
+
+/// Of these nodes, -1 where there are fewer. `points`: with d coordinates each.
+inline NearFeature near_feature(const std::array<Mesh::Index, 3>& nodes, const std::vector<double>& points,
+                                std::size_t d) {
+    NearFeature f;
+    for (const Mesh::Index node : nodes) {
+        if (node >= 0) f.add(node, &points[d * static_cast<std::size_t>(node)], d);
+    }
+    return f;
+}
 
 /// The corners of a cell by ascending node.
 struct NearCell {

@@ -190,10 +190,9 @@ public:
         const auto rank = [&](Index place) { return nodes[static_cast<std::size_t>(place)]; };
         // Which node is lowest, of all and of each face, tells how the cell is cut.
         std::uint64_t key = type;
-        Index apex = 0;
+        const auto apex = static_cast<std::uint64_t>(std::ranges::min_element(nodes) - nodes.begin());
         bool twice = false;
         for (std::size_t i = 0; i < nodes.size(); ++i) {
-            if (nodes[i] < rank(apex)) apex = static_cast<Index>(i);
             for (std::size_t j = 0; j < i; ++j) twice |= nodes[i] == nodes[j];
         }
         for (const auto& ring : of_type)
@@ -203,7 +202,7 @@ public:
             for (auto& ring : rings) std::ranges::transform(ring, ring.begin(), rank);
             return cut_rings(cell, std::move(rings), false);
         }
-        Parts& parts = known_[key << 4U | static_cast<std::uint64_t>(apex)];
+        Parts& parts = known_[key << 4U | apex];
         if (parts.corners.empty())
             parts = mesh_.dimension == 3 ? cut_solid(Faces(of_type, nodes.size()), nodes.size(), rank)
                                          : cut_polygon(type, of_type.front(), rank);

@@ -21,9 +21,7 @@ std::string_view word(FillMethod method) {
     return method == FillMethod::scanline ? "scanline" : method == FillMethod::bilinear ? "bilinear" : "barycentric";
 }
 std::string_view word(Interpolation interpolation) {
-    return interpolation == Interpolation::affine        ? "affine"
-           : interpolation == Interpolation::projected_z ? "projected-z"
-                                                         : "perspective";
+    return std::array{"perspective", "affine", "projected-z"}[static_cast<std::size_t>(interpolation)];
 }
 
 void tell_triangles(Document& d, const RenderCounts& n) {
@@ -38,7 +36,7 @@ void tell_triangles(Document& d, const RenderCounts& n) {
 }
 
 void tell_pixels(Document& d, const RenderCounts& n, int samples) {
-    std::string text = fmt::format("{} drawn", n.pixels);
+    std::string text = n.pixels == 0 && n.drawn != 0 ? "none: polygons" : fmt::format("{} drawn", n.pixels);
     if (n.hidden != 0 || n.covered != n.pixels)
         text += fmt::format("; triangles cover {} one by one, the nearest is seen", n.covered);
     d.figure("pixels", record("count", n.pixels, MEMBERS(n, covered, hidden)), samples == 1 ? "pixels" : "samples",

@@ -1,6 +1,8 @@
 // What a verification of results found.
 
 #include "barycert/base/decades.hpp"
+#include "barycert/draw/files.hpp"
+#include "barycert/draw/histogram.hpp"
 #include "barycert/report.hpp"
 #include "barycert/report/common/document.hpp"
 
@@ -9,6 +11,8 @@ namespace barycert {
 using namespace report;
 
 namespace {
+
+using namespace draw;
 
 std::string where(const WrongRow& row) {
     if (row.exact.cell < 0) return "outside";
@@ -146,22 +150,58 @@ void tell_values(Document& d, const VerifyReport& s) {
     }
 }
 
+/// Errors of a bin of ValueErrors::by_relative: from 10^(b - 19) on all are above the tolerance if that is less.
+bool is_wrong(const VerifyReport& s, std::size_t b) {
+    return b != 0 && (s.exact || std::pow(10.0, static_cast<double>(b) - 19) >= s.tolerance);
+}
+
+/// Of a column in ulps, and in parts of its range; red: wrong.
+std::vector<Picture> error_pictures(const VerifyReport& s, std::size_t c) {
+    const ValueErrors& e = s.verdicts.columns[c];
+    const auto picture = [&](auto counts, const char* unit, std::vector<Tick> ticks, auto range, auto bad) {
+        const auto last =
+            std::find_if(counts.rbegin(), counts.rend() - 8, [](std::uint64_t n) { return n != 0; }).base();
+        Axis x{.high = static_cast<double>(last - counts.begin()),
+               .title = fmt::format("error of {}, {}, logarithmic", s.columns[c], unit)};
+        std::ranges::copy_if(ticks, std::back_inserter(x.ticks), [&](const Tick& t) { return t.at <= x.high; });
+        return histogram({.title = x.title,
+                          .x = x,
+                          .counts = {counts.begin(), last},
+                          .counted = "rows",
+                          .range = range,
+                          .bad = bad});
+    };
+    std::vector<Tick> ulps{{0.5, "0"}}, parts{{0.5, "0"}};
+    for (int k = 1; k < 66; k += 5) ulps.push_back({1.0 + k, "2" + superscript(k - 1)});
+    for (int k = 2; k < 22; k += 4) parts.push_back({1.0 * k, "10" + superscript(k - 19)});
+    const auto in_ulps = [](std::size_t b) {
+        return b == 0 ? "no error" : fmt::format("2^{} ulps or more", static_cast<int>(b) - 2);
+    };
+    const auto in_parts = [](std::size_t b) { return b == 0 ? "no error" : base::decade_label(b); };
+    return {
+        picture(e.by_ulps, "ulps", ulps, in_ulps, [&s](std::size_t b) { return s.exact && b != 0; }),
+        picture(e.by_relative, "parts of its range", parts, in_parts, [&s](std::size_t b) { return is_wrong(s, b); })};
+}
+
 /// The errors of a column by powers of ten; on a terminal where there are some.
-void tell_errors(Document& d, const VerifyReport& s, const std::string& column, const ValueErrors& e) {
+void tell_errors(Document& d, const VerifyReport& s, std::size_t c) {
+    const ValueErrors& e = s.verdicts.columns[c];
+    const auto figures = [&s, c] {
+        return "<div class=\"figures\">\n" + joined(error_pictures(s, c), "", svg_markup) + "</div>\n";
+    };
+    d.add(Pictures{figures}, For::page);
     const auto some = [](std::uint64_t n) { return n != 0; };
     const auto& counts = e.by_relative;
     const auto first = std::ranges::find_if(counts, some);
     const auto last = std::find_if(counts.rbegin(), counts.rend(), some).base();
     Bars bars;
     for (auto at = first; at < last; ++at) {
-        // From 10^(b - 19) on all are above the tolerance if that is less.
         const auto b = static_cast<std::size_t>(at - counts.begin());
-        const bool bad = b != 0 && (s.exact || std::pow(10.0, static_cast<double>(b) - 19) >= s.tolerance);
-        bars.bars.push_back({b == 0 ? "right" : base::decade_label(b), *at, bad});
+        bars.bars.push_back({b == 0 ? "right" : base::decade_label(b), *at});
     }
-    const For whom = e.values == e.identical ? For::page : For::all;  // one bar: the table says it
-    d.section(fmt::format("errors of {} in parts of its range", column), whom, 3);
-    d.add(std::move(bars), whom);
+    if (e.values == e.identical) return;  // one bar: the table says it
+    d.section(fmt::format("errors of {} in parts of its range", s.columns[c]), For::terminal, 3);
+    d.add(std::move(bars), For::terminal);
 }
 
 Json errors_json(const VerifyReport& s) {
@@ -217,7 +257,7 @@ Document verify_document(const VerifyReport& s, const Environment& environment) 
     tell_verdict(d, s);
     tell_values(d, s);
     for (std::size_t c = 0; c < s.columns.size(); ++c)
-        if (s.verdicts.columns[c].values != 0) tell_errors(d, s, s.columns[c], s.verdicts.columns[c]);
+        if (s.verdicts.columns[c].values != 0) tell_errors(d, s, c);
     if (!s.verdicts.examples.empty()) d.section("worst rows, counted from 0");
     for (const WrongRow& row : s.verdicts.examples)
         d.add(Item{.title = fmt::format("{:<12}", name(row.verdict)),
@@ -248,6 +288,15 @@ RUN_TEXT_AND_JSON(verify, VerifyReport)
 std::string verify_html(const VerifyReport& summary, const Environment& environment) {
     const ExactEnvironment exact;
     return page_text(verify_document(summary, environment));
+}
+
+std::string verify_plot(const VerifyReport& summary, const std::string& path) {
+    const ExactEnvironment exact;
+    std::vector<Picture> all;
+    for (std::size_t c = 0; c < summary.columns.size(); ++c)
+        if (summary.verdicts.columns[c].values != 0)
+            std::ranges::move(error_pictures(summary, c), std::back_inserter(all));
+    return file_text(path, in_rows(all, summary.results)).value();
 }
 
 CiReport verify_outcomes(const VerifyReport& s, const Environment& environment) {

@@ -296,8 +296,7 @@ Result<Cut> slice(const Mesh& mesh, const Plane& plane, const CutOptions& option
     const auto& n = plane.normal;
     if (!std::isfinite(plane.offset) || !base::all_finite(n) || (n[0] == 0 && n[1] == 0 && n[2] == 0))
         return file_error({}, "the plane", "four finite numbers, the normal not zero",
-                          base::shortest(n[0]) + ", " + base::shortest(n[1]) + ", " + base::shortest(n[2]) + ", " +
-                              base::shortest(plane.offset));
+                          base::joined(std::array{n[0], n[1], n[2], plane.offset}, ", ", base::shortest));
     return surface::on_good_input(mesh, 3, options,
                                   [&] { return surface::cut_at(mesh, surface::PlaneLevel(mesh, plane), options); });
 }

@@ -79,6 +79,7 @@ class Viewer {
     this.renderer = new THREE.WebGLRenderer({ antialias: true, alpha: true, preserveDrawingBuffer: true });
     this.layOut();
     this.renderer.localClippingEnabled = true;
+    this.renderer.domElement.tabIndex = 0;  // keys
     this.stage.append(this.renderer.domElement);
     this.scene = new THREE.Scene();
     this.scene.add(new THREE.AmbientLight(0xffffff, 1.3));
@@ -149,7 +150,7 @@ class Viewer {
       this.stage.append(shown);
       return { at, shown };
     });
-    const hint = `Drag to ${this.corners === 3 ? "move" : "turn"} it; click for a cell, its exact weights and value.`;
+    const hint = `Drag to ${this.corners === 3 ? "move" : "turn"} it; click for a cell, its exact weights and value. Arrow keys move${this.corners === 3 ? "" : ", with shift they turn"}.`;
     this.said.textContent = [hint, ...data.told].join(" ");
     this.figure.querySelector(".still").replaceWith(...all.children);
   }
@@ -173,6 +174,7 @@ class Viewer {
     this.controls = new THREE.OrbitControls(this.camera, this.renderer.domElement);
     // In the plane what turns in space moves.
     if (plane) Object.assign(this.controls, { enableRotate: false, mouseButtons: { LEFT: 2, MIDDLE: 1, RIGHT: 2 }, touches: { ONE: 1, TWO: 2 } });
+    this.controls.listenToKeyEvents(this.renderer.domElement);
     this.controls.addEventListener("change", () => this.draw());
     this.resize();
     this.camera.zoom = (0.96 * zoom) / this.extent();  // what is in sight fills the stage

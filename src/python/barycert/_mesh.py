@@ -416,6 +416,7 @@ class Mesh(GivenBack):
             threshold: (field, low, high): cells whose values are within alone.
             slices: planes as of clip. iso: values of iso-surfaces of iso_field (default: the field).
             arrows, arrow_count: a field of vectors. marked: numbers of cells, in red.
+            points, point_size: an array of coordinates, in the colours of the field there; pixels across.
             view, camera, zoom, parallel: "iso", "+x", ..., or (azimuth, elevation) in degrees; above 1: nearer; no perspective.
             size, resolution, samples, background, axes: (width, height); pixels of a .png for one of these; smooth edges, 1:
                 none; (red, green, blue, opacity), 0 to 255; "box", "triad" or "none".

@@ -16,12 +16,15 @@ bool is_injective(const InverseCase& c) {
     return iso::jacobian_sign(*iso::linear_reference(c.type), places_of(c)) == iso::JacobianSign::positive;
 }
 
-/// Sets the point to the image of x, rounded. `mirrored`: x in the half of the unit square that a wedge has not is
-/// taken into the other.
+/// Sets the point to the image of x, in plain double from left to right. `mirrored`: x in the half of the unit square
+/// that a wedge has not is taken into the other.
 void set_point(InverseCase& c, Triple x, bool mirrored = true) {
     if (mirrored && c.type == 13 && std::max(x[0], x[1]) <= 1 && x[0] + x[1] > 1) x = {1 - x[0], 1 - x[1], x[2]};
-    const Triple p = image_of(c, x);
-    std::copy_n(p.begin(), c.point.size(), c.point.begin());
+    std::array<double, iso::max_nodes> n{};
+    iso::shape_functions(*iso::linear_reference(c.type), x, n, nullptr);
+    std::ranges::fill(c.point, 0.0);
+    const std::size_t d = c.point.size();
+    for (std::size_t i = 0; i < c.nodes.size(); ++i) c.point[i % d] += n[i / d] * c.nodes[i];
 }
 
 Triple any_inside(const InverseCase& c, Random& random) {

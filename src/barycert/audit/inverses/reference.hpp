@@ -21,14 +21,4 @@ inline iso::Places places_of(const InverseCase& c) {
     return places;
 }
 
-/// The point that x is taken to, in plain double from left to right.
-inline std::array<double, 3> image_of(const InverseCase& c, const std::array<double, 3>& x) {
-    std::array<double, iso::max_nodes> n{};
-    iso::shape_functions(*iso::linear_reference(c.type), x, n, nullptr);
-    std::array<double, 3> p{};
-    const std::size_t d = c.point.size();
-    for (std::size_t i = 0; i < c.nodes.size(); ++i) p[i % d] += n[i / d] * c.nodes[i];
-    return p;
-}
-
 }  // namespace barycert::audit

@@ -36,16 +36,13 @@ Telling compare_figures(const KernelStatistics& sound, const KernelStatistics& m
     return best;
 }
 
-const KernelResult* result_of(const AuditReport& report, const std::string& name) {
-    const auto at = std::ranges::find_if(report.kernels, [&](const KernelResult& k) { return k.kernel.name == name; });
-    return at == report.kernels.end() ? nullptr : &*at;
-}
-
 MutantResult judged(const Mutant& m, const AuditReport& report) {
     MutantResult r{m, 0, {}};
-    const KernelResult* const mutant = result_of(report, m.kernel.name);
-    const KernelResult* const sound = result_of(report, m.sound.name);
-    if (mutant == nullptr || sound == nullptr) return r;
+    const auto result_of = [&](const Kernel& of) {
+        return std::ranges::find(report.kernels, of.name, [](const KernelResult& k) { return k.kernel.name; });
+    };
+    const auto mutant = result_of(m.kernel), sound = result_of(m.sound), none = report.kernels.end();
+    if (mutant == none || sound == none) return r;
     std::vector<Telling> telling;
     for (std::size_t i = 0; i < mutant->families.size(); ++i) {
         ++r.families;
@@ -69,13 +66,9 @@ std::uint64_t MutantReport::caught() const {
 Result<MutantReport> audit_mutants(AuditOptions options, const MeshSource& meshes, const std::vector<Mutant>& mutants) {
     const ExactEnvironment environment;
     options.kernels.clear();
-    const auto add = [&](const Kernel& k) {
-        const auto same = [&](const Kernel& x) { return x.name == k.name; };
-        if (std::ranges::none_of(options.kernels, same)) options.kernels.push_back(k);
-    };
     for (const Mutant& m : mutants) {
-        add(m.sound);
-        add(m.kernel);
+        for (const Kernel* const k : {&m.sound, &m.kernel})
+            if (std::ranges::count(options.kernels, k->name, &Kernel::name) == 0) options.kernels.push_back(*k);
     }
     const Result<AuditReport> audit = run_audit(options, meshes);
     if (!audit) return audit.error();

@@ -168,6 +168,7 @@ constexpr double unit = 0x1p-53;
 struct Bounded {
     double value, bound;
     bool certain() const { return std::fabs(value) > bound; }
+    int sign() const { return value > 0 ? 1 : value < 0 ? -1 : 0; }
 };
 
 bool far_from_underflow(std::initializer_list<double> differences) {
@@ -192,22 +193,18 @@ Bounded bounded(Vector2<double> a, Vector2<double> b) {
     return {cross(a, b), far_from_underflow({a.x, a.y, b.x, b.y}) ? constant * unit * magnitude_sum : HUGE_VAL};
 }
 
-int sign_of(const Bounded& b) {
-    return b.value > 0 ? 1 : b.value < 0 ? -1 : 0;
-}
-
 /// The exact weights; where the filter is certain, with its signs. `orientation`: the exact one of the cell.
 template <Simplex s, FilterFault fault, std::size_t n>
 int with_signs(const double* v, const double* p, const std::array<Bounded, n>& part, const Bounded& whole,
                int orientation, double* w) {
     const Result<Weights> exact = barycentric_weights(s, v, p);
     if (!exact) return 1;
-    const int side = whole.certain() ? sign_of(whole) : orientation;
+    const int side = whole.certain() ? whole.sign() : orientation;
     if (side == 0) return 1;
     for (std::size_t i = 0; i < n; ++i) {
         // A degenerate cell that passes for another has no exact weights.
         w[i] = exact->degenerate ? part[i].value / whole.value : exact->weights[i];
-        if (part[i].certain()) w[i] = std::copysign(std::max(std::fabs(w[i]), 0x1p-1074), sign_of(part[i]) * side);
+        if (part[i].certain()) w[i] = std::copysign(std::max(std::fabs(w[i]), 0x1p-1074), part[i].sign() * side);
         if (w[i] == 0 && fault == FilterFault::tie_outside) w[i] = -0x1p-1074;
         if (w[i] == 0 && fault == FilterFault::tie_inside) w[i] = 0x1p-1074;
     }
@@ -254,11 +251,9 @@ template <Simplex s>
 int exact_but_closed(const double* v, const double* p, double* w) {
     const Result<Weights> exact = barycentric_weights(s, v, p);
     if (!exact || exact->degenerate) return 1;
+    std::copy_n(exact->weights.begin(), vertex_count(s), w);
     w[0] = 1;
-    for (int i = 1; i < vertex_count(s); ++i) {
-        w[i] = exact->weights[static_cast<std::size_t>(i)];
-        w[0] -= w[i];
-    }
+    for (int i = 1; i < vertex_count(s); ++i) w[0] -= w[i];
     return 0;
 }
 
@@ -267,9 +262,7 @@ template <Simplex s>
 double value_rounded_twice(const double* v, const double* p, const double* f) {
     const Result<Weights> exact = barycentric_weights(s, v, p);
     if (!exact || exact->degenerate) return std::nan("");
-    double sum = 0;
-    for (int i = 0; i < vertex_count(s); ++i) sum += exact->weights[static_cast<std::size_t>(i)] * f[i];
-    return sum;
+    return std::inner_product(f, f + vertex_count(s), exact->weights.begin(), 0.0);
 }
 
 /// Between two values whose weights are one half the exact value often lies midway between two doubles: it belongs to

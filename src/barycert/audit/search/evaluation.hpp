@@ -93,8 +93,7 @@ inline double badness(std::size_t reason, const Evaluation& e) {
 struct Height {
     double shown = -1;  ///< badness
     double near = 0;    ///< if it does not show
-    friend bool operator==(const Height&, const Height&) = default;
-    friend bool operator<(Height a, Height b) { return std::pair(a.shown, a.near) < std::pair(b.shown, b.near); }
+    friend auto operator<=>(const Height&, const Height&) = default;
 };
 
 inline Height height(std::size_t reason, const Evaluation& e) {

@@ -261,15 +261,6 @@ SurfaceCase any_two(Random& random) {
     return {{any_triangle(random), any_triangle(random)}, {}};
 }
 
-SurfaceCase lattice_two(Random& random) {
-    return {{lattice_triangle(random), lattice_triangle(random)}, {}};
-}
-
-SurfaceCase scaled_two(Random& random) {
-    const int k = random.integer(-120, 100);
-    return still_proper(random.coin() ? any_two(random) : touching(random), k, 0);
-}
-
 }  // namespace
 
 const std::vector<SurfaceFamily>& surface_families() {
@@ -321,7 +312,10 @@ const std::vector<SurfaceFamily>& surface_families() {
              return changed(star_and<anywhere>(random), k, 0);
          }},
         {"meet.random", meet, "ordinary triangles, for comparison", any_two},
-        {"meet.lattice", meet, "coordinates 0 to 3: they touch, or lie in one plane", lattice_two},
+        {"meet.lattice", meet, "coordinates 0 to 3: they touch, or lie in one plane",
+         [](Random& random) {
+             return SurfaceCase{{lattice_triangle(random), lattice_triangle(random)}, {}};
+         }},
         {"meet.touching", meet, "a corner of one is computed on the other", touching},
         {"meet.one-plane", meet, "two in a plane through lattice points", in_one_plane},
         {"meet.parallel", meet, "over each other, as far apart as rounding", nearly_parallel},
@@ -333,7 +327,11 @@ const std::vector<SurfaceFamily>& surface_families() {
          }},
         {"meet.moved", meet, "touching ones, moved by 2^20",
          [](Random& random) { return still_proper(touching(random), 0, 0x1p20); }},
-        {"meet.scaled", meet, "ordinary and touching ones, times 2^-120 to 2^100", scaled_two},
+        {"meet.scaled", meet, "ordinary and touching ones, times 2^-120 to 2^100",
+         [](Random& random) {
+             const int k = random.integer(-120, 100);
+             return still_proper(random.coin() ? any_two(random) : touching(random), k, 0);
+         }},
     };
     return all;
 }

@@ -74,10 +74,9 @@ public:
             if (balanced[i] != 0) shell.volume = volumes_.rounded(sums.shell[i]);
             signs_.push_back(balanced[i] != 0 ? sums.shell[i].sign() : 0);
         }
-        chambers_.resize(sums.chamber.size());
+        for (const Integer& six : sums.chamber) chambers_.push_back({.six = six});
         for (std::size_t side = 0; side < chamber_.size(); ++side)
             chambers_[chamber_[side]].shell = shell_of_[side / 2];
-        for (std::size_t c = 0; c < chambers_.size(); ++c) chambers_[c].six = sums.chamber[c];
     }
 
     /// The chamber that holds a point on no triangle; nothing outside of all.

@@ -61,20 +61,16 @@ std::vector<CellPair> find_intersections(SurfaceParts& s) {
         s.defects.add_marked(
             DefectKind::self_intersection,
             {.cells = {a, b}, .nodes = s.triangles.nodes(first), .other_nodes = s.triangles.nodes(second)});
-        for (const auto& [of, on] : {FacetPair{first, second}, FacetPair{second, first}}) {
-            const PlacedFacet &f = s.triangles.facets[of], &g = s.triangles.facets[on];
-            for (std::size_t k = 0; k < 3; ++k) {
-                const auto face = face_around(3, g, f.at[k]);
-                if (face[1] < 0) continue;
-                HangingNode node{s.triangles.node(f.nodes[k]), face, s.triangles.number(on)};
-                for (Mesh::Index& n : node.face) n = n < 0 ? n : s.triangles.node(n);
-                hanging.push_back(node);
-            }
-        }
+        for (const auto& [of, on] : {FacetPair{first, second}, FacetPair{second, first}})
+            add_hanging(3, s.triangles.facets[of], s.triangles.facets[on], s.triangles.number(on), hanging);
     }
     if (pairs.size() > limit) {
         for (const DefectKind kind : {DefectKind::self_intersection, DefectKind::duplicate_triangle})
             s.defects[kind].at_least = s.defects[kind].count != 0;
+    }
+    for (HangingNode& h : hanging) {
+        h.node = s.triangles.node(h.node);
+        for (Mesh::Index& n : h.face) n = n < 0 ? n : s.triangles.node(n);
     }
     sort_hanging(hanging);
     for (const HangingNode& h : hanging)

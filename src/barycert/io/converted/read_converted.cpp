@@ -380,10 +380,9 @@ Mesh checked(const Json& answer, const MeshioFile& file, const std::string& path
     Result<Mesh> read = read_vtk(file.vtu);
     if (!read) {
         Error error = read.error();
-        const std::string stem = path.substr(0, path.size() - suffix_of(path).size());
         // They name the intermediate file.
         for (std::string* part : {&error.what, &error.file, &error.found, &error.remedy}) {
-            for (const char* more : {"-", "."}) base::replace_all(*part, file.vtu + more, stem + more);
+            for (const char* more : {"-", "."}) base::replace_all(*part, file.vtu + more, stem_of(path) + more);
             base::replace_all(*part, file.vtu, path);
         }
         throw Exception(error);

@@ -13,16 +13,17 @@ constexpr std::size_t text_a_piece = std::size_t{1} << 16;
 
 class CsvSource final : public ColumnSource {
 public:
-    /// Reads up to the header or over the first point. `kept`: the formats of the carried columns, if known.
+    /// Reads up to the header or over the first point. `kept`, `more`: formats and notes of carried columns, if known.
     CsvSource(const std::string& path, int dimension, const PointOptions& options,
-              const std::vector<ColumnFormat>* kept = nullptr)
+              const std::vector<ColumnFormat>& kept = {}, const Notes& more = {})
         : ColumnSource(dimension), lines_(path) {
         for (std::string_view line; lines_.next(line);) {
             if (!holds_fields(line, ' ')) continue;
             layout_ = settle_csv_layout(line, dimension, options, {lines_.name(), lines_.number()});
-            if (kept != nullptr && kept->size() == layout_.kept.size()) layout_.kept = *kept;
+            if (kept.size() == layout_.kept.size()) layout_.kept = kept;
             formats_ = layout_.kept;
             notes_ = layout_.notes;
+            notes_.insert(notes_.end(), more.begin(), more.end());
             if (layout_.header) return;
             // The first point; it is given like all others.
             const std::string text = std::string(line) + (lines_.line_ended() ? "\n" : "");
@@ -38,7 +39,6 @@ public:
     }
 
     std::optional<std::uint64_t> count() const override { return std::nullopt; }
-    void add_notes(const Notes& more) { notes_.insert(notes_.end(), more.begin(), more.end()); }
 
 private:
     std::size_t next(std::size_t max, std::vector<double>& out) override {
@@ -149,9 +149,7 @@ Source open_csv_source(const std::string& path, int dimension, const PointOption
                     "write CSV, which carries columns as they are, or save the points to a file first");
     Notes notes;
     const std::vector<ColumnFormat> formats = formats_of_all(CsvSource(path, dimension, options), path, notes);
-    auto source = std::make_unique<CsvSource>(path, dimension, options, &formats);
-    source->add_notes(notes);
-    return source;
+    return std::make_unique<CsvSource>(path, dimension, options, formats, notes);
 }
 
 }  // namespace barycert::io

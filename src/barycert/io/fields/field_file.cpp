@@ -111,8 +111,7 @@ Field read_text(Field field, const std::string& path, std::string_view bytes) {
 
 std::vector<std::size_t> components_of(const NpyTable& table, bool structured, const Field& field,
                                        const std::string& path, const std::string& column) {
-    std::vector<std::string> names;
-    for (const NpyColumn& c : table.columns) names.push_back(c.name);
+    const std::vector<std::string> names = base::names_of(table.columns);
     std::vector<std::size_t> columns;
     if (!column.empty())
         columns = columns_of_field(names, place_of(column) && !structured ? "column" + column : column);

@@ -226,10 +226,9 @@ void drop_repeats(MshCells& cells, std::size_t corners, std::size_t mids) {
         mesh::keep_rows(cells.mesh.cell_numbers, 1, kept);
     }
     cells.repeated = count - kept.size();
-    if (shapes.types.empty()) {
-        mesh::keep_rows(cells.mesh.cells, corners, kept);
-        mesh::keep_rows(cells.mesh.mid_nodes, mids, kept);
-    } else {
+    mesh::keep_rows(cells.mesh.cells, corners, kept);
+    mesh::keep_rows(cells.mesh.mid_nodes, mids, kept);
+    if (!shapes.types.empty()) {
         Mesh own;
         own.dimension = cells.mesh.dimension;
         for (const auto i : kept)
@@ -275,12 +274,6 @@ void look_at_others(const Target& to, std::span<const Run> runs, const std::vect
 }
 
 }  // namespace
-
-int ElementType::dimension() const {
-    using enum ElementFamily;
-    if (family <= line) return family == point ? 0 : 1;
-    return family <= quadrangle ? 2 : 3;
-}
 
 const ElementType* element_type(std::int64_t number) {
     const auto* const found = std::ranges::find(element_types, number, &ElementType::number);

@@ -251,10 +251,11 @@ void Walk::refuse_word(std::string expected, std::string found) const {
 }
 
 /// A number in binary form may reach into the end of the section, "$End..." and its name, which has 9 bytes or more.
-template <class Take>
-void Walk::step(const char* name, const Take& take) {
+template <class Number, class Take>
+Number Walk::step(const char* name, const Take& take) {
+    Number number{};
     const auto from = [&](auto row) {
-        if (!take(row)) {
+        if (!take(row, number)) {
             at_ = row.at();
             refuse_word(name, word_at(at_, file_->end()));
         }
@@ -262,27 +263,24 @@ void Walk::step(const char* name, const Take& take) {
         at_ = row.at();
     };
     text_ ? from(Row<true>(*file_, at_)) : from(Row<false>(*file_, at_));
+    return number;
 }
 
 std::int64_t Walk::integer(const char* name) {
-    std::int64_t value = 0;
-    step(name, [&](auto& row) { return row.integer(value, name); });
-    return value;
+    return step<std::int64_t>(name, [&](auto& row, auto& to) { return row.integer(to, name); });
 }
 
 std::int64_t Walk::size(const char* name) {
     const char* const at = at_;
-    std::int64_t value = 0;
-    step(name, [&](auto& row) { return row.tag(value, name); });
+    const auto value = step<std::int64_t>(name, [&](auto& row, auto& to) { return row.tag(to, name); });
     if (value >= 0) return value;
     at_ = at;
     refuse("bad number", name, std::to_string(value));
 }
 
 double Walk::real(const char* name, bool any) {
-    double value = 0;
-    step(name, [&](auto& row) { return row.text && !any ? row.real(value, name) : row.any_real(value, name); });
-    return value;
+    return step<double>(
+        name, [&](auto& row, auto& to) { return row.text && !any ? row.real(to, name) : row.any_real(to, name); });
 }
 
 std::int64_t Walk::count_line(const char* name) {

@@ -261,9 +261,9 @@ public:
     void move_to(const char* at) { at_ = at; }
 
 private:
-    /// take(row), where a row begins here.
-    template <class Take>
-    void step(const char* name, const Take& take);
+    /// What take(row, number) takes, where a row begins here.
+    template <class Number, class Take>
+    Number step(const char* name, const Take& take);
 
     const MshFile* file_;
     const MshSection* section_;

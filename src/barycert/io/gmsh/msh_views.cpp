@@ -179,12 +179,11 @@ std::vector<MshView> find_msh_views(const MshFile& file) {
     for (const MshSection& section : file.sections()) {
         const auto* const name = std::find(names.begin(), names.end(), section.name);
         if (name == names.end()) continue;
-        MshView view;
+        MshView& view = views.emplace_back();
         view.of = static_cast<MshView::Of>(name - names.begin());
         view.of_cells = view.of == MshView::Of::elements;
         view.section = &section;
         read_header(file, view);
-        views.push_back(std::move(view));
     }
     return views;
 }
@@ -202,16 +201,13 @@ void read_msh_fields(const MshFile& file, const std::vector<MshView>& views, Msh
             notes.push_back(
                 {Note::Kind::left_out, "the interpolation scheme of " + base::quoted(view.field), file.path(), true});
     }
-    for (const std::vector<const MshView*>& same : by_name) {
+    for (std::vector<const MshView*>& same : by_name) {
         const std::optional<std::int64_t> chosen = choose_step(same, step, file.path(), notes);
         if (!chosen) continue;
-        std::optional<FieldMaker> maker;
-        for (const MshView* view : same) {
-            if (view->step != *chosen) continue;
-            if (!maker) maker.emplace(file, targets, *view, notes);
-            maker->add(*view);
-        }
-        maker->finish(fields);
+        std::erase_if(same, [&](const MshView* view) { return view->step != *chosen; });
+        FieldMaker maker(file, targets, *same.front(), notes);
+        for (const MshView* view : same) maker.add(*view);
+        maker.finish(fields);
     }
 }
 

@@ -109,8 +109,7 @@ void fill_from_entities(const MshFile& file, const MshElements& elements, const 
     for (const ElementBlock& block : elements.blocks) {
         if (cells.left_out.contains(block.type) || block.run.count == 0) continue;
         const auto found = groups.entities.find({cells.mesh.dimension, block.entity});
-        const MshEntity alone{{}, block.entity};
-        const MshEntity& entity = found == groups.entities.end() ? alone : found->second;
+        const MshEntity entity = found == groups.entities.end() ? MshEntity{{}, block.entity} : found->second;
         counts.push_back(block.run.count);
         cells.physical.push_back(entity.physical.empty() ? 0 : static_cast<double>(entity.physical.front()));
         cells.geometrical.push_back(static_cast<double>(entity.whole));
@@ -249,11 +248,9 @@ Result<Mesh> read_gmsh(const std::string& path, const GmshReadOptions& options) 
 Result<std::vector<GmshStep>> gmsh_steps(const std::string& path) {
     return io::read_guarded(path, [&] {
         const io::MshFile file(path, 0);
-        std::vector<GmshStep> steps;
-        for (const io::MshView& v : io::find_msh_views(file)) {
-            if (v.of != io::MshView::Of::element_nodes) steps.push_back(v);
-        }
-        return steps;
+        std::vector<io::MshView> views = io::find_msh_views(file);
+        std::erase_if(views, [](const io::MshView& v) { return v.of == io::MshView::Of::element_nodes; });
+        return std::vector<GmshStep>(views.begin(), views.end());
     });
 }
 

@@ -3,6 +3,7 @@
 #include <numeric>
 #include <set>
 
+#include "barycert/base/range.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/row_output.hpp"
 #include "barycert/mesh/consistency.hpp"
@@ -37,11 +38,9 @@ std::optional<std::vector<std::int32_t>> integers(const Field& field) {
 
 template <class T>
 const std::vector<T>* find_label(const Mesh& mesh, const char* name) {
-    for (const Column& column : mesh.cell_labels) {
-        if (column.name == name && column.size() == mesh.cell_count())
-            return std::get_if<std::vector<T>>(&column.values);
-    }
-    return nullptr;
+    const auto is_it = [&](const Column& c) { return c.name == name && c.size() == mesh.cell_count(); };
+    const auto found = std::ranges::find_if(mesh.cell_labels, is_it);
+    return found == mesh.cell_labels.end() ? nullptr : std::get_if<std::vector<T>>(&found->values);
 }
 
 /// Those of the file the mesh came from, where they can be tags.
@@ -185,19 +184,12 @@ private:
 
     /// The entities of the cells, each with the box of its nodes.
     void write_entities() {
-        using Box = std::array<std::array<double, 3>, 2>;  // low, high
-        std::map<std::int32_t, Box> boxes;
+        std::map<std::int32_t, std::array<base::Range, 3>> boxes;
         const auto size = static_cast<std::size_t>(mesh_.dimension);
         for (std::size_t cell = 0; cell < mesh_.cell_count(); ++cell) {
-            const auto [found, added] = boxes.try_emplace(groups_.entity_of(cell));
-            Box& box = found->second;
-            for (std::size_t k = 0; k < mesh_.corners(); ++k) {
-                const auto node = static_cast<std::size_t>(mesh_.cells[cell * mesh_.corners() + k]);
-                for (std::size_t axis = 0; axis < size; ++axis) {
-                    const double x = mesh_.points[node * size + axis];
-                    box[0][axis] = added && k == 0 ? x : std::min(box[0][axis], x);
-                    box[1][axis] = added && k == 0 ? x : std::max(box[1][axis], x);
-                }
+            auto& box = boxes[groups_.entity_of(cell)];
+            for (const Mesh::Index node : mesh_.corners_of(cell)) {
+                for (std::size_t axis = 0; axis < size; ++axis) box[axis].add(mesh_.point(node)[axis]);
             }
         }
         out_.text("$Entities\n");
@@ -205,7 +197,9 @@ private:
         out_.end_row();
         for (const auto& [entity, physical] : groups_.physical_of) {
             integer(entity);
-            for (const auto& corner : boxes[entity]) out_.numbers<double>(corner);
+            // Without extent where there is none: z in the plane, and a mesh without cells.
+            for (const base::Range& side : boxes[entity]) out_.number(side.empty() ? 0 : side.low);
+            for (const base::Range& side : boxes[entity]) out_.number(side.empty() ? 0 : side.high);
             out_.number(std::size_t{physical != 0});
             if (physical != 0) integer(physical);
             out_.number(std::size_t{0});
@@ -243,8 +237,7 @@ private:
     /// Calls put with the tag of each node of the cell, in Gmsh's order.
     template <class Put>
     void put_nodes(std::size_t cell, const Put& put) {
-        const std::size_t corners = mesh_.corners();
-        for (std::size_t k = 0; k < corners; ++k) put(mesh_.cells[cell * corners + k] + std::int64_t{1});
+        for (const Mesh::Index node : mesh_.corners_of(cell)) put(node + std::int64_t{1});
         if (mesh_.mid_nodes.empty()) return;
         const std::span<const std::size_t> sequence =
             mesh::edge_sequence(mesh_.dimension == 3 ? MidEdgeOrder::gmsh : MidEdgeOrder::vtk, mesh_.dimension);

@@ -50,8 +50,8 @@ void add_medit_fields(const MeditFile& file, Mesh& mesh) {
 void note_medit_sections(const MeditFile& file, Notes& notes) {
     std::vector<std::string> names;
     for (const MeditSection& section : file.sections()) {
-        const bool new_one = std::find(names.begin(), names.end(), section.name) == names.end();
-        if (section.keyword.kind == MeditKind::other && new_one) names.push_back(section.name);
+        if (section.keyword.kind == MeditKind::other && std::ranges::count(names, section.name) == 0)
+            names.push_back(section.name);
     }
     if (!names.empty()) notes.push_back({Note::Kind::left_out, "sections " + list_of(names), file.path()});
 }

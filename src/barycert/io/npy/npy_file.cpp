@@ -293,10 +293,9 @@ double half(std::uint16_t bits) {
 
 /// Of types whose kind and size are known: neither halves nor booleans.
 NumberType number_type(const NpyType& type) {
-    const auto doublings = static_cast<int>(std::bit_width(type.size)) - 1;
-    const int first = static_cast<int>(NumberType::int8) + (type.kind == 'i' ? 0 : 1);
     if (type.kind == 'f') return type.is_double() ? NumberType::float64 : NumberType::float32;
-    return static_cast<NumberType>(first + 2 * doublings);
+    const int first = static_cast<int>(type.kind == 'i' ? NumberType::int8 : NumberType::uint8);
+    return static_cast<NumberType>(first + 2 * (static_cast<int>(std::bit_width(type.size)) - 1));
 }
 
 /// The numbers of `count` items, each `step` bytes behind the one before, to out[0], out[stride], ..., up to the first

@@ -94,24 +94,17 @@ public:
 private:
     /// Error: an empty name, one that is not UTF-8, two that are alike.
     void settle_types() {
-        struct Field {
-            std::string name;
-            std::string type = "<f8";
-        };
-        std::vector<Field> fields{{"x"}, {"y"}};
-        if (format_.dimension == 3) fields.push_back({"z"});
-        fields.push_back({"cell", "<i8"});
-        fields.push_back({"feature", "|S8"});
-        for (const std::string& column : format_.columns()) fields.push_back({column});
-        if (format_.distances) fields.push_back({"distance"});
-        row_size_ = 8 * fields.size();  // each has 8 bytes
-        for (const ColumnFormat& column : format_.carried) {
-            carried_.push_back(type_of(column));
-            fields.push_back({column.name, carried_.back().text});
-            row_size_ += carried_.back().size;
-        }
+        using enum Column::Type;
+        std::vector<ColumnFormat> fields{{"x", number}, {"y", number}};
+        if (format_.dimension == 3) fields.push_back({"z", number});
+        fields.push_back({"cell", integer});
+        fields.push_back({"feature", text, feature_size});
+        for (const std::string& column : format_.columns()) fields.push_back({column, number});
+        if (format_.distances) fields.push_back({"distance", number});
+        fields.insert(fields.end(), format_.carried.begin(), format_.carried.end());
+        for (const ColumnFormat& column : format_.carried) carried_.push_back(type_of(column));
         std::set<std::string> seen;
-        for (const Field& field : fields) {
+        for (const ColumnFormat& field : fields) {
             const char* const expected =
                 field.name.empty()                       ? "a name"
                 : mesh::count_characters(field.name) < 0 ? "a name in UTF-8"
@@ -121,7 +114,9 @@ private:
             if (expected != nullptr)
                 refuse_file(path_, "a column name is not allowed in an NPY file", expected, base::quoted(field.name),
                             "rename the field, leave it out, or write CSV");
-            types_ += (types_.empty() ? "[(" : ", (") + as_literal(field.name) + ", '" + field.type + "')";
+            const NpyType type = type_of(field);
+            row_size_ += type.size;
+            types_ += (types_.empty() ? "[(" : ", (") + as_literal(field.name) + ", '" + type.text + "')";
         }
         types_ += "]";
     }

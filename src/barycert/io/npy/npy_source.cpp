@@ -17,8 +17,7 @@ public:
         if (!file_.header().structured && options.columns.empty()) check_shape();
         const NpyTable& table = file_.make_table();
         rows_ = table.rows;
-        TableColumns all{.names = {}, .named = file_.header().structured, .file = path_};
-        for (const NpyColumn& column : table.columns) all.names.push_back(column.name);
+        const TableColumns all{base::names_of(table.columns), file_.header().structured, path_};
         PointColumns columns = choose_columns(all, dimension, options);
         notes_ = std::move(columns.notes);
         std::vector<std::size_t> places = columns.axes;

@@ -8,6 +8,7 @@
 #include "barycert/base/output_file.hpp"
 #include "barycert/base/spool.hpp"
 #include "barycert/io/npy/npy.hpp"
+#include "barycert/io/vtk/numbers.hpp"
 
 namespace barycert::io {
 namespace {
@@ -38,11 +39,6 @@ struct Bytes {
 };
 
 static_assert(std::endian::native == std::endian::little, "NPY files are written as numbers stand in memory");
-
-template <class T>
-std::string_view bytes_of(std::span<const T> numbers) {
-    return {reinterpret_cast<const char*>(numbers.data()), numbers.size_bytes()};
-}
 
 /// Arrays one after the other, not compressed, of any size. The file appears whole at commit(), or not at all.
 class NpzWriter final : public WeightsFile {
@@ -80,9 +76,9 @@ public:
         begin("cell", "<i8");
         write_changed<std::int64_t>(cells, std::identity());
         end({cells.size()});
-        const std::uint64_t shape[] = {cells.size(), nodes_};
+        const std::array<std::uint64_t, 2> shape{cells.size(), nodes_};
         begin("shape", "<i8");
-        write(bytes_of(std::span<const std::uint64_t>(shape)));
+        write(bytes_of(shape));
         end({2});
         begin("format", "|S3");
         write("csr");
@@ -121,7 +117,7 @@ private:
             out.clear();
             for (const From x : all.subspan(first, std::min(piece, all.size() - first)))
                 out.push_back(static_cast<To>(change(x)));
-            write(bytes_of(std::span<const To>(out)));
+            write(bytes_of(out));
         }
     }
 
@@ -133,7 +129,7 @@ private:
         end({indices.size()});
         begin("indptr", type);
         Offset at = 0;
-        write(bytes_of(std::span<const Offset>(&at, 1)));
+        write(bytes_of(std::span(&at, 1)));
         write_changed<Offset>(counts, [&at](std::uint8_t count) { return at = static_cast<Offset>(at + count); });
         end({counts.size() + 1});
     }

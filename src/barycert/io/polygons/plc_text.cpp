@@ -9,9 +9,8 @@ bool PlcText::next_line() {
     words_.clear();
     at_ = 0;
     while (words_.empty() && !rest_.empty()) {
-        const std::size_t end = std::min(rest_.find('\n'), rest_.size());
-        line_ = rest_.substr(0, end);
-        rest_.remove_prefix(std::min(end + 1, rest_.size()));
+        line_ = rest_.substr(0, rest_.find('\n'));
+        rest_.remove_prefix(std::min(line_.size() + 1, rest_.size()));
         ++line_number_;
         words_ = cut_fields(line_.substr(0, line_.find('#')), " \t\r,", "");
     }

@@ -30,11 +30,10 @@ void note_uncut(Surface& surface, std::size_t count, const char* what, const std
 
 Surface surface_of(Mesh mesh, InSpace space) {
     Surface surface;
-    if (space.points.empty()) {
+    surface.points = std::move(space.points);
+    if (surface.points.empty()) {
         for (std::size_t i = 0; i < mesh.point_count(); ++i)
             surface.points.insert(surface.points.end(), {mesh.points[2 * i], mesh.points[2 * i + 1], 0});
-    } else {
-        surface.points = std::move(space.points);
     }
     surface.cells = std::move(mesh.cells);
     surface.point_fields = std::move(mesh.point_fields);

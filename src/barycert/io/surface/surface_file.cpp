@@ -29,23 +29,27 @@ const char* fault_of(const Surface& s) {
     return fault_of(s.cell_fields, s.cell_count());
 }
 
-/// Points and cells: in text without fields; in binary, with them, segments at z = 0.
-Status write_rows(const Surface& s, RowOutput& file) {
+/// The head, then points and cells: in text without fields; in binary, with them, segments at z = 0.
+Result<SurfaceFile> write_rows(const Surface& s, const std::string& path, bool binary, const std::string& head,
+                               SurfaceFile result) {
+    RowOutput file(path, binary);
+    file.text(head);
     const bool lines = s.dimension == 2;
     const std::size_t corners = s.corners();
     for (std::size_t v = 0; v < s.point_count(); ++v) {
         file.numbers(std::span(s.points).subspan(corners * v, corners));
         if (lines) file.number(0.0);
-        if (file.binary()) file.row_of(s.point_fields, v);
+        if (binary) file.row_of(s.point_fields, v);
         file.end_row();
     }
     for (std::size_t c = 0; c < s.cell_count(); ++c) {
         if (!lines) file.number(std::uint8_t{3});
         file.numbers(std::span(s.cells).subspan(corners * c, corners));
-        if (file.binary()) file.row_of(s.cell_fields, c);
+        if (binary) file.row_of(s.cell_fields, c);
         file.end_row();
     }
-    return file.commit();
+    if (Status written = file.commit(); !written) return written.error();
+    return result;
 }
 
 /// Text; triangles without fields. Error: segments.
@@ -53,13 +57,10 @@ Result<SurfaceFile> write_off(const Surface& s, const std::string& path) {
     if (s.dimension == 2)
         return file_error(path, "an .off file holds polygons only", {}, "segments in the plane", "choose .vtp or .ply");
     SurfaceFile result;
-    for (const auto* const fields : {&s.point_fields, &s.cell_fields}) {
-        for (const Field& f : *fields) result.left_out.push_back(f.name);
-    }
-    RowOutput file(path);
-    file.text("OFF\n" + std::to_string(s.point_count()) + ' ' + std::to_string(s.cell_count()) + " 0\n");
-    if (Status written = write_rows(s, file); !written) return written.error();
-    return result;
+    for (const auto* const fields : {&s.point_fields, &s.cell_fields})
+        std::ranges::transform(*fields, std::back_inserter(result.left_out), &Field::name);
+    const std::string counts = std::to_string(s.point_count()) + ' ' + std::to_string(s.cell_count());
+    return write_rows(s, path, false, "OFF\n" + counts + " 0\n", std::move(result));
 }
 
 // PLY files. G. Turk, "The PLY Polygon File Format", 1994.
@@ -94,10 +95,7 @@ Result<SurfaceFile> write_ply(const Surface& s, const std::string& path) {
     head += std::string("element ") + (lines ? "edge " : "face ") + std::to_string(s.cell_count()) + '\n';
     head += lines ? "property int vertex1\nproperty int vertex2\n" : "property list uchar int vertex_indices\n";
     head += properties_of(s.cell_fields, {"vertex1", "vertex2", "vertex_indices"}, result.renamed);
-    RowOutput file(path, true);
-    file.text(head + "end_header\n");
-    if (Status written = write_rows(s, file); !written) return written.error();
-    return result;
+    return write_rows(s, path, true, head + "end_header\n", std::move(result));
 }
 
 /// VTK's PolyData: polygons, or lines at z = 0; fields as arrays of doubles; the cells of the mesh as the array "cell",

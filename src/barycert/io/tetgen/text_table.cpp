@@ -36,8 +36,7 @@ std::size_t behind_line(const TextTable& table, std::size_t from, ByteRoom& room
     const std::size_t size = table.input.size();
     while (from < size) {
         const std::string_view some = some_bytes(table, from, std::min(size, from + step), room);
-        const std::size_t feed = some.find('\n');
-        if (feed != std::string_view::npos) return from + feed + 1;
+        if (const std::size_t feed = some.find('\n'); feed != std::string_view::npos) return from + feed + 1;
         from += some.size();
     }
     return size;

@@ -76,9 +76,8 @@ Status VtiWriter::write(std::size_t array, std::span<const std::byte> bytes) {
         place.done += bytes.size();
         return place.bytes.append(bytes);
     }
-    const std::string_view header(reinterpret_cast<const char*>(&size), appended_header),
-        numbers(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    if ((place.done == 0 && !put(place.begin, header)) || !put(place.begin + appended_header + place.done, numbers))
+    const bool headed = place.done != 0 || put(place.begin, bytes_of(std::span(&size, 1)));
+    if (!headed || !put(place.begin + appended_header + place.done, bytes_of(bytes)))
         return file_error(path_, name + " is not next",
                           "one array after the other, as the file cannot be written elsewhere",
                           "arrays that take turns", "write to a file instead of a pipe or device");

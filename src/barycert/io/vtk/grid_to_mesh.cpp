@@ -1,7 +1,5 @@
 #include "barycert/io/vtk/raw_grid.hpp"
 
-#include <numeric>
-
 #include "barycert/base/finite.hpp"
 #include "barycert/mesh/consistency.hpp"
 #include "barycert/surface/facet_triangles.hpp"
@@ -13,19 +11,17 @@ std::string name_of(std::uint8_t type) {
     return cell_types()[type].name + " (type " + std::to_string(type) + ")";
 }
 
-using TypeCounts = std::array<std::size_t, 256>;
+/// How many cells there are of each type, if there are any.
+using TypeCounts = std::map<std::uint8_t, std::size_t>;
 
 /// "7944 vtkLine, 2564 vtkTriangle" of the types for which `is_one` holds.
 template <class IsOne>
 std::string counts_by_name(const TypeCounts& counts, bool with_numbers, IsOne is_one) {
-    std::string text;
-    for (std::size_t type = 0; type < counts.size(); ++type) {
-        const auto number = static_cast<std::uint8_t>(type);
-        if (counts[type] == 0 || !is_one(number)) continue;
-        text += (text.empty() ? "" : ", ") + std::to_string(counts[type]) + " " +
-                (with_numbers ? name_of(number) : cell_types()[type].name);
-    }
-    return text;
+    return base::joined(counts, ", ", [&](const TypeCounts::value_type& one) {
+        const auto [type, count] = one;
+        if (!is_one(type)) return std::string();
+        return std::to_string(count) + " " + (with_numbers ? name_of(type) : cell_types()[type].name);
+    });
 }
 
 bool is_uniform(const std::vector<std::uint8_t>& types) {
@@ -33,28 +29,29 @@ bool is_uniform(const std::vector<std::uint8_t>& types) {
 }
 
 TypeCounts count_types(const RawGrid& grid) {
-    TypeCounts counts{};
-    if (is_uniform(grid.types)) {
-        if (!grid.types.empty()) counts[grid.types.front()] = grid.types.size();
-        return counts;
+    if (grid.types.empty()) return {};
+    if (is_uniform(grid.types)) return {{grid.types.front(), grid.types.size()}};
+    std::array<std::size_t, 256> all{};
+    for (const std::uint8_t type : grid.types) ++all[type];
+    TypeCounts counts;
+    for (std::size_t type = 0; type < all.size(); ++type) {
+        if (all[type] != 0) counts[static_cast<std::uint8_t>(type)] = all[type];
     }
-    for (const std::uint8_t type : grid.types) ++counts[type];
     return counts;
 }
 
 /// Makes triangles of all polygons in space, by their corners, where there are no cells that fill it.
 void cut_polygons(RawGrid& grid, const TypeCounts& counts, const std::string& path, InSpace& space, Notes& notes) {
     std::size_t polygons = 0;
-    for (std::size_t type = 0; type < counts.size(); ++type) {
+    for (const auto& [type, count] : counts) {
         const CellKind kind = cell_types()[type].kind;
-        if (counts[type] != 0 && (kind == CellKind::other || cell_types()[type].dimension() == 3)) return;
-        polygons += kind == CellKind::surface ? counts[type] : 0;
+        if (kind == CellKind::other || cell_types()[type].dimension() == 3) return;
+        polygons += kind == CellKind::surface ? count : 0;
     }
-    const bool mixed = counts[vtk_quadratic_triangle] != 0 && counts[vtk_triangle] != 0;
+    const bool mixed = counts.contains(vtk_quadratic_triangle) && counts.contains(vtk_triangle);
     if ((polygons == 0 && !mixed) || in_plane(grid.points)) return;
     RawCells cells;
-    std::vector<std::uint8_t> types;
-    std::vector<std::int32_t> rows;
+    std::vector<std::int32_t> rows;  // the polygon of each triangle
     std::size_t uncut = 0, by_corners = 0;
     for (std::size_t cell = 0; cell < grid.types.size(); ++cell) {
         const CellType& type = cell_types()[grid.types[cell]];
@@ -62,12 +59,7 @@ void cut_polygons(RawGrid& grid, const TypeCounts& counts, const std::string& pa
         if (type.kind == CellKind::lower) continue;
         by_corners += mesh::corners_of(type, nodes).size() < nodes.size() && type.kind == CellKind::surface ? 1 : 0;
         uncut += surface::add_triangles(grid.points, type, nodes, cells.connectivity);
-        for (auto at = static_cast<std::size_t>(cells.ends.empty() ? 0 : cells.ends.back());
-             at < cells.connectivity.size(); at += 3) {
-            cells.ends.push_back(static_cast<std::int64_t>(at + 3));
-            types.push_back(vtk_triangle);
-            rows.push_back(static_cast<std::int32_t>(cell));
-        }
+        rows.resize(cells.connectivity.size() / 3, static_cast<std::int32_t>(cell));
     }
     if (rows.empty()) return;
     const auto note = [&](std::size_t count, const char* what, Note::Kind kind) {
@@ -76,8 +68,9 @@ void cut_polygons(RawGrid& grid, const TypeCounts& counts, const std::string& pa
     note(polygons, " polygons, which are cut into triangles of their corners", Note::Kind::converted);
     note(by_corners, " polygons of a higher order: they are taken by their corners", Note::Kind::converted);
     note(uncut, " polygons that are no simple ones, and cannot be cut", Note::Kind::left_out);
+    for (std::size_t i = 1; i <= rows.size(); ++i) cells.ends.push_back(static_cast<std::int64_t>(3 * i));
     grid.cells = std::move(cells);
-    grid.types = std::move(types);
+    grid.types.assign(rows.size(), vtk_triangle);
     keep_rows(grid.cell_arrays, rows);
     space.facets = std::move(rows);
 }
@@ -85,9 +78,7 @@ void cut_polygons(RawGrid& grid, const TypeCounts& counts, const std::string& pa
 /// The dimension of the cells that make the mesh.
 int choose(const TypeCounts& counts, const RawGrid& grid, const std::string& path) {
     int dimension = 0;
-    for (std::size_t type = 0; type < counts.size(); ++type) {
-        if (counts[type] != 0) dimension = std::max(dimension, cell_types()[type].dimension());
-    }
+    for (const auto& [type, count] : counts) dimension = std::max(dimension, cell_types()[type].dimension());
     const std::string others =
         counts_by_name(counts, true, [](std::uint8_t type) { return cell_types()[type].kind == CellKind::other; });
     if (!others.empty())
@@ -134,8 +125,7 @@ constexpr unsigned duplicate_cell = 1, refined_cell = 8, hidden_cell = 32;
 
 /// The numbers of the cells that make the mesh; empty if that is all of them. Ghosts are counted.
 std::vector<Mesh::Index> kept_cells(const RawGrid& grid, int dimension, std::size_t& ghosts) {
-    const auto ghost =
-        std::ranges::find_if(grid.cell_arrays, [](const RawArray& array) { return array.is_ghost_flags(); });
+    const auto ghost = std::ranges::find_if(grid.cell_arrays, &RawArray::is_ghost_flags);
     const auto is_ghost = [&](std::size_t cell) {
         if (ghost == grid.cell_arrays.end()) return false;
         const double flags = ghost->numbers()[cell];
@@ -177,17 +167,12 @@ void copy_cells(RawGrid& grid, std::size_t nodes, std::size_t count, Mesh& mesh)
 }
 
 /// The cells that were chosen, by their corners.
-void copy_shapes(const RawGrid& grid, const std::string& path, Mesh& mesh) {
-    std::vector<Mesh::Index> kept = std::move(mesh.cell_numbers);
-    if (kept.empty()) {
-        kept.resize(grid.types.size());
-        std::iota(kept.begin(), kept.end(), 0);
-    }
+void copy_shapes(const RawGrid& grid, std::size_t count, const std::string& path, Mesh& mesh) {
     Mesh::Shapes& shapes = mesh.shapes;
     const bool polyhedra = !grid.faces.face_ends.empty();
     std::size_t by_corners = 0;
-    for (const Mesh::Index number : kept) {
-        const auto cell = static_cast<std::size_t>(number);
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto cell = static_cast<std::size_t>(mesh.cell_number(static_cast<Mesh::Index>(i)));
         const CellType& type = cell_types()[grid.types[cell]];
         const std::span nodes = grid.cells.nodes(cell);
         if (mesh.dimension == 2 && mesh::corners_of(type, nodes).size() < 3)
@@ -206,7 +191,6 @@ void copy_shapes(const RawGrid& grid, const std::string& path, Mesh& mesh) {
         }
         shapes.face_ends.push_back(static_cast<std::int64_t>(shapes.ring_ends.size()));
     }
-    mesh.cell_numbers = std::move(kept);
     note_by_corners(by_corners, path, mesh.notes);
 }
 
@@ -228,15 +212,11 @@ void take_cells(RawGrid& grid, const std::string& path, InSpace* space, Mesh& me
     const TypeCounts counts = count_types(grid);
     mesh.dimension = choose(counts, grid, path);
     // Simplices of one type are the mesh's cells themselves.
-    const auto of_mesh = [&](std::size_t type) { return cell_types()[type].dimension() == mesh.dimension; };
-    std::size_t types = 0, own = 0;
-    for (std::size_t t = 0; t < counts.size(); ++t) {
-        if (counts[t] == 0 || !of_mesh(t)) continue;
-        ++types;
-        own = t;
-    }
-    const CellType& type = cell_types()[own];
-    const bool simplices = types == 1 && (type.kind == CellKind::tetrahedron || type.kind == CellKind::triangle);
+    const auto is_other = [&](std::uint8_t type) { return cell_types()[type].dimension() != mesh.dimension; };
+    TypeCounts own = counts;
+    std::erase_if(own, [&](const auto& one) { return is_other(one.first); });
+    const CellType& type = cell_types()[own.begin()->first];
+    const bool simplices = own.size() == 1 && (type.kind == CellKind::tetrahedron || type.kind == CellKind::triangle);
     std::size_t ghosts = 0;
     mesh.cell_numbers = kept_cells(grid, mesh.dimension, ghosts);
     const std::size_t cells = mesh.cell_numbers.empty() && ghosts == 0 ? grid.types.size() : mesh.cell_numbers.size();
@@ -246,7 +226,6 @@ void take_cells(RawGrid& grid, const std::string& path, InSpace* space, Mesh& me
     const auto leave_out = [&](bool there_are, std::string what) {
         if (there_are) mesh.notes.push_back({Note::Kind::left_out, std::move(what), path, true});
     };
-    const auto is_other = [&](std::uint8_t one) { return !of_mesh(one); };
     leave_out(cells + ghosts != grid.types.size(), std::to_string(grid.types.size() - cells - ghosts) +
                                                        " cells that are no " +
                                                        (!simplices            ? "cells of the mesh's dimension: "
@@ -255,7 +234,7 @@ void take_cells(RawGrid& grid, const std::string& path, InSpace* space, Mesh& me
                                                        counts_by_name(counts, false, is_other));
     leave_out(ghosts != 0, std::to_string(ghosts) +
                                " ghost cells, which stand for cells of other pieces or are hidden (vtkGhostType)");
-    simplices ? copy_cells(grid, type.nodes, cells, mesh) : copy_shapes(grid, path, mesh);
+    simplices ? copy_cells(grid, type.nodes, cells, mesh) : copy_shapes(grid, cells, path, mesh);
     if (simplices && type.nodes != mesh.corners()) mesh.mid_edge_order = MidEdgeOrder::vtk;
     grid.cells.connectivity = {};
     mesh.points = to_points(std::move(grid.points), mesh.dimension, path,
@@ -268,10 +247,9 @@ void take_cells(RawGrid& grid, const std::string& path, InSpace* space, Mesh& me
 
 /// Whether a mesh can be of axes alone: without ghosts, in space or in the plane z = 0, coordinates increasing.
 bool may_be_axes(const RawGrid& grid) {
-    const auto is_ghost = [](const RawArray& array) { return array.name == ghost_name; };
     const auto& [x, y, z] = grid.unlisted->axes;
-    return std::ranges::none_of(grid.cell_arrays, is_ghost) && mesh::is_increasing(x) && mesh::is_increasing(y) &&
-           (mesh::is_increasing(z) || z == std::vector{0.0});
+    return std::ranges::count(grid.cell_arrays, ghost_name, &RawArray::name) == 0 && mesh::is_increasing(x) &&
+           mesh::is_increasing(y) && (mesh::is_increasing(z) || z == std::vector{0.0});
 }
 
 }  // namespace

@@ -64,9 +64,8 @@ public:
     std::string take_name() { return decoded(next_word(rest_)); }
     /// What is left of the line, which is then behind.
     std::string_view rest_of_line() {
-        const std::size_t end = std::min(rest_.find('\n'), rest_.size());
-        std::string_view text = rest_.substr(0, end);
-        rest_.remove_prefix(std::min(end + 1, rest_.size()));
+        std::string_view text = rest_.substr(0, rest_.find('\n'));
+        rest_.remove_prefix(std::min(text.size() + 1, rest_.size()));
         if (text.ends_with('\r')) text.remove_suffix(1);
         return text;
     }
@@ -253,10 +252,9 @@ private:
         if (structured_ && read_structure(keyword)) return;
         if (keyword == "METADATA") return skip_metadata();
         if (keyword == "FIELD") return read_field_arrays(nullptr, 0);
-        constexpr std::array<const char*, section_count> names{"VERTICES", "LINES", "POLYGONS", "TRIANGLE_STRIPS"};
-        for (std::size_t i = 0; i < section_count; ++i) {
-            if (polydata_ && keyword == names[i]) return read_cells(sections_[i]);
-        }
+        constexpr std::array<std::string_view, section_count> names{"VERTICES", "LINES", "POLYGONS", "TRIANGLE_STRIPS"};
+        const auto section = static_cast<std::size_t>(std::ranges::find(names, keyword) - names.begin());
+        if (polydata_ && section != section_count) return read_cells(sections_[section]);
         if (structured_ && (keyword == "POINT_DATA" || keyword == "CELL_DATA")) make_structured();
         if (keyword == "POINT_DATA") return read_attributes(keyword, point_count_, ", one a point", grid_.point_arrays);
         if (keyword == "CELL_DATA") return read_attributes(keyword, cell_count(), ", one a cell", grid_.cell_arrays);
@@ -330,8 +328,7 @@ private:
 
     void read_types() {
         if (!grid_.types.empty()) fail("a second section CELL_TYPES", "one", "two");
-        const std::size_t count = take_count("the number of cell types");
-        take_numbers("the cell types", NumberType::int32, count, grid_.types);
+        take_numbers("the cell types", NumberType::int32, take_count("the number of cell types"), grid_.types);
     }
 
     std::size_t cell_count() const {

@@ -214,10 +214,9 @@ std::string_view xml_name(NumberType type) {
 }
 
 std::optional<NumberType> type_of_name(std::string_view name) {
-    for (std::size_t i = 0; i < type_names.size(); ++i) {
-        if (has_word(type_names[i], name)) return static_cast<NumberType>(i);
-    }
-    return std::nullopt;
+    const auto* const found = std::ranges::find_if(type_names, [&](auto names) { return has_word(names, name); });
+    if (found == type_names.end()) return std::nullopt;
+    return static_cast<NumberType>(found - type_names.begin());
 }
 
 std::size_t number_bytes(NumberType type) {

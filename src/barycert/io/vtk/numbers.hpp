@@ -124,6 +124,12 @@ bool convert_number(From from, To& to) {
     }
 }
 
+/// The bytes of these numbers, as they stand in memory.
+template <class Numbers>
+std::string_view bytes_of(const Numbers& numbers) {
+    return {reinterpret_cast<const char*>(std::data(numbers)), std::size(numbers) * sizeof(*std::data(numbers))};
+}
+
 /// The number at those bytes, which stand in the order of this machine or in the other.
 template <class T>
 T number_at(const char* bytes, bool swapped) {

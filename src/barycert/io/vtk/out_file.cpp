@@ -47,10 +47,6 @@ const char* element_of(NumberType type) {
     return type == NumberType::text ? "Array" : "DataArray";
 }
 
-std::string_view bytes_of_words(const std::vector<std::uint64_t>& words) {
-    return {reinterpret_cast<const char*>(words.data()), words.size() * sizeof(std::uint64_t)};
-}
-
 /// All elements but those of appended data, in parts: each but the last ends behind the name of an array.
 std::vector<std::string> elements_of(const OutFile& f, std::string_view compressor) {
     const bool big = std::endian::native == std::endian::big;
@@ -128,8 +124,8 @@ bool write_compressed(const OutFile& f, VtkData compressor, base::OutputFile& fi
         for_each_array(f, [&](const OutArray& a) {
             std::vector<std::uint64_t>& header = headers[array];
             offsets[array++] = end;
-            write(bytes_of_words(header));
-            end += bytes_of_words(header).size();
+            write(bytes_of(header));
+            end += bytes_of(header).size();
             std::size_t next = 3;
             write_parts(
                 a, block_size / number_bytes(a.format.type),
@@ -148,8 +144,7 @@ bool write_compressed(const OutFile& f, VtkData compressor, base::OutputFile& fi
     if (!file.can_replace()) return good;
     const std::string final_head = head();
     file.replace(0, final_head);
-    for (std::size_t i = 0; i < headers.size(); ++i)
-        file.replace(final_head.size() + offsets[i], bytes_of_words(headers[i]));
+    for (std::size_t i = 0; i < headers.size(); ++i) file.replace(final_head.size() + offsets[i], bytes_of(headers[i]));
     return good;
 }
 

@@ -189,16 +189,12 @@ std::vector<SeriesStep> steps_of(std::span<const CollectionFile> files) {
     return steps;
 }
 
-bool is_structured(const std::string& path) {
-    return has_one_of(path, {".vti", ".vtr", ".vts"});
-}
-
 /// What blocks make the mesh: unstructured grids; where there are none, structured ones; else polygons.
 enum class Blocks : std::uint8_t { unstructured, structured, polygons };
 
 Blocks kind_of_block(const std::string& path) {
     if (has_one_of(path, {".vtp", ".pvtp"})) return Blocks::polygons;
-    return is_structured(path) ? Blocks::structured : Blocks::unstructured;
+    return has_one_of(path, {".vti", ".vtr", ".vts"}) ? Blocks::structured : Blocks::unstructured;
 }
 
 /// Of the files, or those that they name.
@@ -206,8 +202,7 @@ Blocks blocks_of_mesh(std::span<const CollectionFile> files) {
     Blocks kind = Blocks::polygons;
     for (const CollectionFile& file : files) {
         for (const std::string& own : vtk_mesh_files(file.path)) {
-            if (has_suffix(own, ".vtu") || has_suffix(own, ".vtk") || is_structured(own))
-                kind = std::min(kind, kind_of_block(own));
+            if (has_one_of(own, {".vtu", ".vtk", ".vti", ".vtr", ".vts"})) kind = std::min(kind, kind_of_block(own));
         }
     }
     return kind;
@@ -359,9 +354,7 @@ Result<std::vector<SeriesStep>> read_series(const std::string& path) {
 
 std::vector<std::string> vtk_mesh_files(const std::string& path) {
     std::vector<std::string> all{path};
-    constexpr std::string_view alone = " .vtu .vtk .vtp .vti .vtr .vts ";
-    const std::string suffix = std::filesystem::path(path).extension().string();
-    if (alone.find(' ' + suffix + ' ') != std::string_view::npos) return all;
+    if (io::has_word(".vtu .vtk .vtp .vti .vtr .vts", std::filesystem::path(path).extension().string())) return all;
     std::set<std::string> known{path};
     for (std::size_t i = 0; i < all.size(); ++i) {
         std::optional<io::Collection> named;

@@ -25,10 +25,6 @@ std::optional<std::array<T, count>> parse_all(std::string_view text) {
     return numbers;
 }
 
-bool is_structured(std::string_view type) {
-    return type == "ImageData" || type == "RectilinearGrid" || type == "StructuredGrid";
-}
-
 class XmlReader : XmlTree {
 public:
     XmlReader(XmlTree tree, Part part) : XmlTree(std::move(tree)), part_(part) { take_layout(); }
@@ -37,7 +33,7 @@ public:
         const std::string type(root().attribute_or("type", ""));
         const XmlElement* const data = root().name == "VTKFile" ? child(&root(), type) : nullptr;
         is_polygons_ = type == "PolyData";
-        const bool structured = is_structured(type);
+        const bool structured = has_word("ImageData RectilinearGrid StructuredGrid", type);
         if (data == nullptr || !(is_polygons_ || structured || type == "UnstructuredGrid")) refuse_kind(data, type);
         RawGrid grid;
         std::size_t pieces = 0;

@@ -79,10 +79,8 @@ void MappedCells::find_curves() {
     base::parallel_for_each(boxes.size(), 1024, [&](std::size_t i) {
         const auto whole = static_cast<std::size_t>(curved_[i]);
         const auto hull = iso::hull_box(*maps_.reference(whole), maps_.places(whole));
-        for (std::size_t k = 0; k < static_cast<std::size_t>(mesh_.dimension); ++k) {
-            boxes[i].low[k] = hull[k];
-            boxes[i].high[k] = hull[3 + k];
-        }
+        std::copy_n(hull.begin(), mesh_.dimension, boxes[i].low.begin());
+        std::copy_n(hull.begin() + 3, mesh_.dimension, boxes[i].high.begin());
     });
     curved_tree_ = std::make_unique<index::BoxTree>(std::move(boxes));
 }
@@ -117,24 +115,17 @@ void MappedCells::add_curved(const double* point, std::vector<Location>& found) 
     curved_tree_->for_each(box, [&](std::uint32_t i) {
         const auto whole = static_cast<std::size_t>(curved_[i]);
         const iso::InSimplex in = in_curved(whole, point);
-        if (!in.inside) return true;
-        const int zeros = std::popcount(in.zeros);
-        const Feature feature = zeros == 0                           ? Feature::interior
-                                : zeros == mesh_.dimension           ? Feature::vertex
-                                : zeros == 1 && mesh_.dimension == 3 ? Feature::face
-                                                                     : Feature::edge;
-        found.push_back({first_part(whole), feature});
+        if (in.inside) found.push_back({first_part(whole), mesh::feature_of_whole(0, in.zeros, mesh_.dimension)});
         return true;
     });
 }
 
 WeightSigns MappedCells::in_part(Mesh::Index cell, const double* point) const {
     std::array<double, 12> vertices{};
-    const auto d = static_cast<std::size_t>(mesh_.dimension);
-    for (std::size_t i = 0; i < mesh_.corners(); ++i)
-        std::copy_n(mesh_.point(mesh_.cells[static_cast<std::size_t>(cell) * mesh_.corners() + i]), d,
-                    &vertices[d * i]);
-    return weight_signs(d == 2 ? Simplex::triangle : Simplex::tetrahedron, vertices.data(), point);
+    double* to = vertices.data();
+    for (const Mesh::Index node : mesh_.corners_of(static_cast<std::size_t>(cell)))
+        to = std::copy_n(mesh_.point(node), mesh_.dimension, to);
+    return weight_signs(mesh_.dimension == 2 ? Simplex::triangle : Simplex::tetrahedron, vertices.data(), point);
 }
 
 Location MappedCells::owner(const double* point, Location in_parts, const AllInParts& all_in_parts) const {
@@ -178,11 +169,7 @@ Mesh::Index MappedCells::inside_on_lanes(const double* point) const {
         add({first_part(static_cast<std::size_t>(curved_[i])), Feature::interior}, record, -1, {}, {}, batch);
         return batch.count < Batch::max;
     });
-    const iso::LanesProved proved = iso::evaluate_lanes({.count = batch.count,
-                                                         .element = batch.element,
-                                                         .places = batch.places.data(),
-                                                         .others = batch.others.data(),
-                                                         .point = batch.point.data()});
+    const iso::LanesProved proved = batch.evaluate();
     return proved.inside == 0 ? -1 : batch.at[static_cast<std::size_t>(std::countr_zero(proved.inside))].cell;
 }
 

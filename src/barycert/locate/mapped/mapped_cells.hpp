@@ -83,6 +83,10 @@ public:
         PointRecord record(std::size_t lane) const {
             return {{point[lane], point[max + lane], point[2 * max + lane]}, numbers[lane]};
         }
+        core::isoparametric::LanesProved evaluate() {
+            return core::isoparametric::evaluate_lanes({count, element, places.data(), others.data(), point.data(),
+                                                        values.data(), out.size() / max, out.data()});
+        }
     };
 
     /// Asks memory for what add() will read at a place, in calls some points apart: with step 0 first, then 1.
@@ -201,10 +205,8 @@ public:
 private:
     using Batch = MappedCells::Batch;
     void flush(Batch& batch) {
+        const core::isoparametric::LanesProved proved = batch.evaluate();
         const std::size_t count = std::exchange(batch.count, 0);
-        const core::isoparametric::LanesProved proved = core::isoparametric::evaluate_lanes(
-            {count, batch.element, batch.places.data(), batch.others.data(), batch.point.data(), batch.values.data(),
-             batch.out.size() / Batch::max, batch.out.data()});
         for (std::size_t i = 0; i < count; ++i)
             use_(batch, i, (proved.inside >> i & 1U) != 0, (proved.values >> i & 1U) != 0);
     }

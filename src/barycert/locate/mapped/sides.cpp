@@ -11,12 +11,6 @@ namespace iso = core::isoparametric;
 
 namespace {
 
-Sign side_of_plane(const std::array<const double*, 4>& n, std::size_t left_out, const double* p) {
-    std::array<const double*, 4> at = n;
-    at[left_out] = p;
-    return orient3d(at[0], at[1], at[2], at[3]);
-}
-
 /// Weights of a point in the tetrahedron of a side's nodes.
 struct InSide {
     bool holds = false;
@@ -48,18 +42,15 @@ InSide look(const std::array<const double*, 4>& n, const double* p) {
     if (index::outcode(3, index::box_of(3, n.data(), 4), p) != 0) return out;
     const Sign whole = orient3d(n[0], n[1], n[2], n[3]);
     for (std::size_t i = 0; i < 4; ++i) {
-        const Sign own = side_of_plane(n, i, p) * whole;
+        std::array<const double*, 4> at = n;
+        at[i] = p;
+        const Sign own = orient3d(at[0], at[1], at[2], at[3]) * whole;
         if (own == Sign::negative) return out;
         if (own == Sign::zero) out.zeros |= 1U << i;
     }
     out.holds = true;
     out.inner = sign_of_saddle(n, p) * whole;
     return out;
-}
-
-/// CellMaps has the nodes of a voxel in the order of a hexahedron, those of a pixel in that of a quadrilateral.
-const std::vector<std::vector<Mesh::Index>>& faces_of(std::uint8_t type) {
-    return mesh::rings_of(type == 11 ? 12 : type == 8 ? 9 : type);
 }
 
 }  // namespace
@@ -141,7 +132,9 @@ std::uint64_t MappedCells::active_nodes(std::size_t shape, const double* point) 
         return active;
     }
     const bool flat = mesh_.dimension == 2;
-    const auto& faces = faces_of(mesh_.shapes.types[shape]);
+    // CellMaps has the nodes of a voxel in the order of a hexahedron, those of a pixel in that of a quadrilateral.
+    const std::uint8_t type = mesh_.shapes.types[shape];
+    const auto& faces = mesh::rings_of(type == 11 ? 12 : type == 8 ? 9 : type);
     const std::size_t count = flat ? faces.front().size() : faces.size();
     for (std::size_t face = 0; face < count; ++face) {
         const std::vector<Mesh::Index>& ring = flat ? faces.front() : faces[face];

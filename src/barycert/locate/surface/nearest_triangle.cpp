@@ -8,9 +8,7 @@ namespace barycert::locate {
 namespace {
 
 SurfaceNearest none() {
-    SurfaceNearest nearest;
-    nearest.distance = std::numeric_limits<double>::infinity();
-    return nearest;
+    return {Nearest{.distance = std::numeric_limits<double>::infinity()}};
 }
 
 void round_on(const Point3& p, const NearFeature& f, SurfaceNearest& to) {
@@ -166,13 +164,7 @@ private:
 
     /// Of a query whose triangle and nodes are known.
     void round_exactly(const Query& query) const {
-        NearFeature f;
-        for (const Mesh::Index node : query.to->nodes) {
-            if (node < 0) continue;
-            const auto at = &data_.surface->points[3 * static_cast<std::size_t>(node)];
-            f.nodes[static_cast<std::size_t>(f.count)] = node;
-            f.at[static_cast<std::size_t>(f.count++)] = {at[0], at[1], at[2]};
-        }
+        const NearFeature f = near_feature(query.to->nodes, data_.surface->points, 3);
         round_on({query.point[0], query.point[1], query.point[2]}, f, *query.to);
     }
 
@@ -241,10 +233,8 @@ bool SurfaceData::nearest_on(Mesh::Index triangle, const double* p, SurfaceNeare
     const Mesh::Index* const corners = &surface->cells[3 * static_cast<std::size_t>(triangle)];
     std::copy_n(corners, 3, cell.nodes.begin());
     std::sort(cell.nodes.begin(), cell.nodes.begin() + 3);
-    for (std::size_t i = 0; i < 3; ++i) {
-        const double* const at = &surface->points[3 * static_cast<std::size_t>(cell.nodes[i])];
-        cell.at[i] = {at[0], at[1], at[2]};
-    }
+    for (std::size_t i = 0; i < 3; ++i)
+        std::copy_n(&surface->points[3 * static_cast<std::size_t>(cell.nodes[i])], 3, cell.at[i].begin());
     if (!index::proper(3, {{}, {cell.at[0].data(), cell.at[1].data(), cell.at[2].data()}})) return false;
     const Point3 point{p[0], p[1], p[2]};
     NearFeature f;

@@ -43,17 +43,11 @@ double value_at(const Surface& s, const Field& field, bool of_cells, const Surfa
     if (at.cell < 0) return std::numeric_limits<double>::quiet_NaN();
     const auto row = [&](Mesh::Index i) { return field.data[width * static_cast<std::size_t>(i) + c]; };
     if (of_cells) return row(at.cell);
-    std::array<double, 9> vertices{};
+    const NearFeature on = near_feature(at.nodes, s.points, 3);
     std::array<double, 3> values{};
-    std::size_t count = 0;
-    for (; count < 3 && at.nodes[count] >= 0; ++count) {
-        std::copy_n(&s.points[3 * static_cast<std::size_t>(at.nodes[count])], 3, &vertices[3 * count]);
-        values[count] = row(at.nodes[count]);
-    }
-    if (count == 1) return values[0];
-    return interpolate(count == 2 ? Simplex::segment : Simplex::triangle3d, vertices.data(), p, values.data())
-        .value()
-        .value;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(on.count); ++i) values[i] = row(on.nodes[i]);
+    if (on.count == 1) return values[0];
+    return interpolate(on.simplex(), on.vertices().data(), p, values.data()).value().value;
 }
 
 void set_on(const Surface& s, const double* p, SurfaceNearest& n) {

@@ -109,15 +109,6 @@ void tell_meshes(Document& d, const AuditReport& r, const TerminalStyle& style, 
     }
 }
 
-/// What was audited, who decided, and what is known of the meshes.
-void tell_cases(Document& d, const AuditReport& r, const TerminalStyle& style) {
-    d.say(fmt::format("{} cases of {}, exactly {}", r.cases, counted(r.families.size(), "family", "families"),
-                      regions_text(r)),
-          Tone::plain, For::all, Breaks::words);
-    d.say(oracle_line(r.oracles), Tone::plain, For::all, Breaks::words);
-    tell_meshes(d, r, style, Breaks::commas);
-}
-
 void tell_families(Document& d, const AuditReport& r) {
     struct Line {
         std::uint64_t cases = 0;
@@ -347,7 +338,11 @@ Document audit_document(const AuditReport& r, const TerminalStyle& style, const 
     else
         tell_kernels(d, r);
     d.part();
-    tell_cases(d, r, style);
+    d.say(fmt::format("{} cases of {}, exactly {}", r.cases, counted(r.families.size(), "family", "families"),
+                      regions_text(r)),
+          Tone::plain, For::all, Breaks::words);
+    d.say(oracle_line(r.oracles), Tone::plain, For::all, Breaks::words);
+    tell_meshes(d, r, style, Breaks::commas);
     d.append(page_of(r, style, page), For::page);
     d.say(how_it_was_made(r), Tone::plain, For::terminal);
     d.say(environment_line(r.environment), Tone::plain, For::terminal);

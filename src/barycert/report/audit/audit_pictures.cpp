@@ -29,14 +29,12 @@ struct ParetoAxes {
     Axis y{.from = 268, .to = 16, .title = "wrong cases"};
 
     explicit ParetoAxes(const std::vector<const KernelResult*>& kernels) {
-        double fast = kernels.front()->ns, slow = fast, least = 1;
-        for (const KernelResult* k : kernels) {
-            fast = std::min(fast, k->ns);
-            slow = std::max(slow, k->ns);
+        const auto [fastest, slowest] = std::ranges::minmax(kernels, {}, &KernelResult::ns);
+        double least = 1;
+        for (const KernelResult* k : kernels)
             if (k->total.wrong_cases != 0) least = std::min(least, wrong_share(*k));
-        }
-        x.low = std::log10(fast) - 0.35;
-        x.high = std::log10(slow) + 0.25;
+        x.low = std::log10(fastest->ns) - 0.35;
+        x.high = std::log10(slowest->ns) + 0.25;
         x.ticks = log_ticks(x.low, x.high);
         const double floor = std::min(std::floor(std::log10(least)), -1.0);
         none = floor * 7 / 6;  // a sixth of the decades below
@@ -116,10 +114,7 @@ std::string swatch(const io::Colour& c, std::string_view text) {
     return fmt::format("<span><i style=\"background:#{:02x}{:02x}{:02x}\"></i>{}</span> ", c[0], c[1], c[2], text);
 }
 
-struct SignColour {
-    io::Colour colour;
-    std::string_view text;
-};
+using SignColour = std::pair<io::Colour, std::string_view>;
 /// Of the signs -1, 0, 1 and of no answer.
 constexpr std::array<SignColour, 4> sign_colours{{{{0xe6, 0x9f, 0x00}, "negative"},
                                                   {{0xff, 0xff, 0xff}, "zero"},
@@ -135,7 +130,7 @@ std::string png_of(const SignPicture& p) {
             pixels[row * side + i] = static_cast<std::uint8_t>(p.signs[(side - 1 - row) * side + i] + 1);
     }
     std::array<io::Colour, sign_colours.size()> colours{};
-    std::ranges::transform(sign_colours, colours.begin(), &SignColour::colour);
+    std::ranges::transform(sign_colours, colours.begin(), &SignColour::first);
     return io::indexed_png(side, pixels, colours).value();
 }
 
@@ -145,12 +140,14 @@ struct SameSigns {
     std::vector<std::string> kernels;  ///< without the exact picture's empty name
 };
 
-std::vector<SameSigns> grouped_pictures(const std::vector<const SignPicture*>& pictures) {
+/// Of the kind of case of `exact`.
+std::vector<SameSigns> grouped_pictures(const std::vector<SignPicture>& pictures, const SignPicture& exact) {
     std::vector<SameSigns> groups;
-    for (const SignPicture* p : pictures) {
-        auto same = std::ranges::find_if(groups, [&](const SameSigns& g) { return g.picture->signs == p->signs; });
-        if (same == groups.end()) same = groups.insert(groups.end(), {p, {}});
-        if (!p->kernel.empty()) same->kernels.push_back(p->kernel);
+    for (const SignPicture& p : pictures) {
+        if (p.simplex != exact.simplex || p.perspective != exact.perspective) continue;
+        auto same = std::ranges::find_if(groups, [&](const SameSigns& g) { return g.picture->signs == p.signs; });
+        if (same == groups.end()) same = groups.insert(groups.end(), {&p, {}});
+        if (!p.kernel.empty()) same->kernels.push_back(p.kernel);
     }
     return groups;
 }
@@ -248,17 +245,13 @@ std::string sign_figures(const std::vector<SignPicture>& pictures) {
         "<h2>Pictures of signs</h2>\n<p class=\"small\">What a kernel says of 256 × 256 neighbouring points beside a "
         "side on the diagonal: the sign of one weight, at points 2⁻⁵³ apart around (1/2, 1/2), the side from 12 to 24 "
         "(after Kettner, Mehlhorn, Pion, Schirra and Yap, 2008).</p>\n<p class=\"small key\">";
-    for (const SignColour& c : sign_colours) out += swatch(c.colour, c.text);
+    for (const auto& [colour, text] : sign_colours) out += swatch(colour, text);
     out += "</p>\n";
     for (const SignPicture& exact : pictures) {
         if (!exact.kernel.empty()) continue;
-        std::vector<const SignPicture*> kind;
-        for (const SignPicture& p : pictures) {
-            if (p.simplex == exact.simplex && p.perspective == exact.perspective) kind.push_back(&p);
-        }
         out += fmt::format("<h3>{}{}</h3>\n<div class=\"signs\">\n", name(exact.simplex),
                            exact.perspective ? ", perspective" : "");
-        out += joined(grouped_pictures(kind), "", figure_of_signs) + "</div>\n";
+        out += joined(grouped_pictures(pictures, exact), "", figure_of_signs) + "</div>\n";
     }
     return out;
 }

@@ -14,10 +14,9 @@ inline double reached(const LogHistogram& errors, double share, const WorstCase&
     return std::min(errors.quantile(share), worst.value);
 }
 
-template <class Tally>
-double share_of_wrong(const Tally& t) {
+constexpr auto share_of_wrong = [](const auto& t) {
     return t.wrong_cases() == 0 ? 0 : static_cast<double>(t.wrong_cases()) / static_cast<double>(t.cases);
-}
+};
 
 // Rules on triangles in space.
 
@@ -45,7 +44,7 @@ void tell_question(Document& d, const SurfaceAudit& audit, SurfaceQuestion quest
             row.cells.push_back(number_cell(reached(t.ulps, 0.999, t.worst)));
             row.cells.push_back(number_cell(t.worst.value));
         } else {
-            const auto worst = std::ranges::max_element(r.families, {}, share_of_wrong<SurfaceTally>);
+            const auto worst = std::ranges::max_element(r.families, {}, share_of_wrong);
             row.cells.emplace_back(t.wrong_cases() == 0
                                        ? ""
                                        : fmt::format("{}, {} %", surface_families()[worst->family].name,
@@ -144,7 +143,7 @@ Document rules_document(std::string title, const auto& audit, const auto& famili
         item.lines.push_back({"fails: " + r.rule.fails});
         auto own = r.families;
         std::erase_if(own, [](const auto& t) { return t.wrong_cases() == 0; });
-        std::ranges::stable_sort(own, std::greater(), [](const auto& t) { return share_of_wrong(t); });
+        std::ranges::stable_sort(own, std::greater(), share_of_wrong);
         for (const auto& t : own)
             item.lines.push_back(
                 {fmt::format("wrong in {} % of {}, first in case {}", percent({t.wrong_cases(), t.cases}),
@@ -201,15 +200,7 @@ Document inverses_document(const InverseAudit& audit) {
 
 AUDIT_TEXT_AND_JSON(surfaces, SurfaceAudit)
 AUDIT_TEXT_AND_JSON(inverses, InverseAudit)
-
-std::string surfaces_html(const SurfaceAudit& audit) {
-    const ExactEnvironment environment;
-    return page_text(surfaces_document(audit));
-}
-
-std::string inverses_html(const InverseAudit& audit) {
-    const ExactEnvironment environment;
-    return page_text(inverses_document(audit));
-}
+AUDIT_PAGE(surfaces, SurfaceAudit)
+AUDIT_PAGE(inverses, InverseAudit)
 
 }  // namespace barycert

@@ -58,7 +58,7 @@ std::vector<Shown> views_of(const Mesh& mesh, const Scene& scene) {
     std::vector<Shown> views;
     if (mesh.dimension == 2) {
         views.push_back({"as it lies", {}});
-        const View along = from_above(scene.points);  // the longest way to the right
+        const View along = broad_view(scene.points, 1);  // the longest way to the right
         const Eigen::Vector2d size = frame(scene, along).sizes();
         if (size[1] < 0.1 * size[0] && size[1] > 0) {
             const double factor = 0.5 * size[0] / size[1];
@@ -71,8 +71,8 @@ std::vector<Shown> views_of(const Mesh& mesh, const Scene& scene) {
         const Mesh::Index from = scene.nodes[edge[0]], to = scene.nodes[edge[1]];
         if (from != to) views.push_back({fmt::format("along edge {}–{}", from, to), along_edge(scene.points, edge)});
     }
-    if (views.empty()) views.push_back({"from the side", from_the_side(scene.points)});
-    views.push_back({"from above", from_above(scene.points)});
+    if (views.empty()) views.push_back({"from the side", broad_view(scene.points, 0)});
+    views.push_back({"from above", broad_view(scene.points, 1)});
     return views;
 }
 

@@ -28,13 +28,6 @@ Cells drawn_of(const Mesh& mesh, Cells cells) {
     return cells;
 }
 
-Exhibit of_place(DefectKind problem, const DefectPlace& p, const Cells& cells) {
-    std::string what(defect_text(problem).name);
-    std::ranges::replace(what, '_', ' ');
-    if (*p.detail != '\0') what += fmt::format(" ({})", p.detail);
-    return {.cells = cells, .what = std::move(what), .defect = true};
-}
-
 /// The directions to the other two corners of a tetrahedron, seen along an edge.
 std::array<Vector, 2> sides_at(Points t, std::array<std::size_t, 2> edge) {
     const Vector along = unit(t[edge[1]] - t[edge[0]]);
@@ -46,17 +39,6 @@ std::array<Vector, 2> sides_at(Points t, std::array<std::size_t, 2> edge) {
         sides[n++] = unit(w - w.dot(along) * along);
     }
     return sides;
-}
-
-/// The longest extent to the right; up another one: 0, the least, or 1, the middle one.
-View broad_view(const std::vector<Vector>& points, int up) {
-    const Vector sum = std::accumulate(points.begin(), points.end(), Vector(Vector::Zero()));
-    const Vector mean = sum / static_cast<double>(std::max<std::size_t>(points.size(), 1));
-    Eigen::Matrix3d m = Eigen::Matrix3d::Zero();
-    for (const Vector& p : points) m += (p - mean) * (p - mean).transpose();
-    // Directions of least, middle and largest extent, orthonormal.
-    const Eigen::Matrix3d axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(m).eigenvectors();
-    return {axes.col(2), axes.col(up), axes.col(2).cross(axes.col(up))};
 }
 
 }  // namespace
@@ -92,7 +74,12 @@ std::vector<Exhibit> defect_cells(const CheckReport& report, const Mesh& mesh, s
     for (const Defect& f : report.defects) {
         if (!f.breaks()) continue;
         std::vector<Exhibit>& queue = queues.emplace_back();
-        for (const DefectPlace& p : f.places) add(queue, of_place(f.kind, p, drawn_of(mesh, p.cells)));
+        std::string what(defect_text(f.kind).name);
+        std::ranges::replace(what, '_', ' ');
+        for (const DefectPlace& p : f.places) {
+            const std::string detail = *p.detail == '\0' ? "" : fmt::format(" ({})", p.detail);
+            add(queue, {.cells = drawn_of(mesh, p.cells), .what = what + detail, .defect = true});
+        }
     }
     // First such as have only cells that were not shown yet; one cell may overlap many.
     std::vector<Exhibit> exhibits;
@@ -145,12 +132,14 @@ Vector Normalised::place(const double* point) const {
     return v;
 }
 
-View from_above(const std::vector<Vector>& points) {
-    return broad_view(points, 1);
-}
-
-View from_the_side(const std::vector<Vector>& points) {
-    return broad_view(points, 0);
+View broad_view(const std::vector<Vector>& points, int up) {
+    const Vector sum = std::accumulate(points.begin(), points.end(), Vector(Vector::Zero()));
+    const Vector mean = sum / static_cast<double>(std::max<std::size_t>(points.size(), 1));
+    Eigen::Matrix3d m = Eigen::Matrix3d::Zero();
+    for (const Vector& p : points) m += (p - mean) * (p - mean).transpose();
+    // Directions of least, middle and largest extent, orthonormal.
+    const Eigen::Matrix3d axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(m).eigenvectors();
+    return {axes.col(2), axes.col(up), axes.col(2).cross(axes.col(up))};
 }
 
 std::array<std::size_t, 2> sharpest_edge(Points t) {

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
-#include "barycert/draw/axes.hpp"
+#include "barycert/draw/files.hpp"
+#include "barycert/draw/histogram.hpp"
+#include "barycert/report.hpp"
 #include "barycert/report/check/check_pictures.hpp"
 #include "barycert/report/check/check_words.hpp"
 
@@ -21,7 +23,7 @@ double round_width(double span) {
     return 10 * power;
 }
 
-void choose_bins(Histogram& h, double min, double max) {
+void choose_bins(Bins& h, double min, double max) {
     // Values that are all but the same get bins around them, a decade or a tenth of their size.
     const double smallest = h.logarithmic || max == 0 ? 1 : 0.1 * max;
     if (max - min < smallest) {
@@ -35,7 +37,7 @@ void choose_bins(Histogram& h, double min, double max) {
     h.counts.assign(static_cast<std::size_t>(last - first), 0);
 }
 
-std::vector<Tick> ticks_of(const Histogram& h) {
+std::vector<Tick> ticks_of(const Bins& h) {
     std::vector<Tick> ticks;
     if (h.logarithmic && h.high() - h.low <= 3) return log_ticks(h.low, h.high());
     for (const double t : round_numbers(h.low, h.high(), 11)) {
@@ -45,63 +47,27 @@ std::vector<Tick> ticks_of(const Histogram& h) {
     return ticks;
 }
 
-std::string bound(const Histogram& h, std::size_t bin) {
+std::string bound(const Bins& h, std::size_t bin) {
     const double x = h.low + h.width * static_cast<double>(bin);
     return h.logarithmic ? fmt::format("{:.3g}", std::pow(10, x)) : fmt::format("{:.6g}", x + 0.0);
 }
 
-/// Counts as parts of the largest; logarithmic where one cell could not be seen else.
-struct CountAxis : Axis {
-    double max = 1;
-    bool logarithmic = false;
-
-    explicit CountAxis(const std::vector<std::uint64_t>& counts) {
-        from = 214;
-        to = 40;
-        title = "cells";
-        double min = std::numeric_limits<double>::infinity();
-        for (const std::uint64_t c : counts) {
-            max = std::max(max, static_cast<double>(c));
-            if (c > 0) min = std::min(min, static_cast<double>(c));
-        }
-        logarithmic = min < std::floor(max / 100);
-        if (logarithmic) title += ", logarithmic";
-        std::vector<double> at = logarithmic ? std::vector<double>{} : round_numbers(0, max, 6);
-        for (double t = 1; logarithmic && t <= max; t *= 10) at.push_back(t);
-        for (const double t : at) {
-            if (t > 0 && t == std::floor(t)) ticks.push_back({height(t), brief_count(static_cast<std::uint64_t>(t))});
-        }
-    }
-    double height(double count) const {
-        return count <= 0 ? 0 : logarithmic ? std::log(2 * count) / std::log(2 * max) : count / max;
-    }
-};
-
-std::string chart(const Histogram& h, const Measure& m) {
-    Picture svg(520, 262, m.axis + ": number of cells");
-    const CountAxis y(h.counts);
-    const Axis x{.low = h.low,
-                 .high = h.high(),
-                 .from = 58,
-                 .to = 498,
-                 .title = m.axis + (h.logarithmic ? ", logarithmic" : ""),
-                 .ticks = ticks_of(h),
-                 .grid = false};
-    draw_axes(svg, x, y);
-    const double wide = (x.to - x.from) / static_cast<double>(h.counts.size());
-    for (std::size_t i = 0; i < h.counts.size(); ++i) {
-        if (h.counts[i] == 0) continue;
-        const double tall = std::max(y.from - y.at(y.height(static_cast<double>(h.counts[i]))), 1.0);
-        const double at = x.from + wide * static_cast<double>(i);
-        svg.bar({at + 0.5, y.from - tall}, wide - 1, tall, "bar",
-                fmt::format("{} to {}: {} {}", bound(h, i), bound(h, i + 1), grouped(h.counts[i]),
-                            h.counts[i] == 1 ? "cell" : "cells"));
-        svg.text({at + wide / 2 + 3, y.from - tall - 3}, brief_count(h.counts[i]), "count", true);
-    }
-    return svg_markup(svg);
+Picture chart(const Bins& h, const Measure& m) {
+    return draw::histogram({.title = m.axis + ": number of cells",
+                            .x = {.low = h.low,
+                                  .high = h.high(),
+                                  .title = m.axis + (h.logarithmic ? ", logarithmic" : ""),
+                                  .ticks = ticks_of(h)},
+                            .counts = h.counts,
+                            .range = [&](std::size_t i) { return bound(h, i) + " to " + bound(h, i + 1); }});
 }
 
-std::string counted_apart(const Histogram& h, const Measure& m) {
+/// An empty picture says nothing; what is counted apart does.
+bool is_empty(const Bins& h) {
+    return std::ranges::all_of(h.counts, [](std::uint64_t n) { return n == 0; });
+}
+
+std::string counted_apart(const Bins& h, const Measure& m) {
     const std::array<std::pair<std::uint64_t, std::string_view>, 3> all{
         {{h.infinite, m.infinite}, {h.zero, "zero, or underflow"}, {h.unknown, "cells with no place in space"}}};
     const std::string some = joined(all, "; ", [](const auto& part) {
@@ -112,8 +78,8 @@ std::string counted_apart(const Histogram& h, const Measure& m) {
 
 }  // namespace
 
-Histogram histogram(const std::vector<double>& values, const BinRule& rule) {
-    Histogram h;
+Bins bins_of(const std::vector<double>& values, const BinRule& rule) {
+    Bins h;
     double min = std::numeric_limits<double>::infinity(), smallest = min, max = -1;
     for (const double x : values) {
         if (!std::isfinite(x)) continue;
@@ -193,14 +159,26 @@ std::vector<Measure> measures_of(const CheckReport& r) {
 std::string histograms(const CheckReport& r) {
     std::string out;
     for (const Measure& m : measures_of(r)) {
-        const Histogram h = histogram(m.values, m.rule);
+        const Bins h = bins_of(m.values, m.rule);
         const std::string apart = xml_escaped(counted_apart(h, m));
-        // An empty picture says nothing; what is counted apart does.
-        const bool none = std::ranges::all_of(h.counts, [](std::uint64_t n) { return n == 0; });
-        out += none ? fmt::format("<p class=\"small\">{}: no cell in a bar. {}</p>\n", xml_escaped(m.axis), apart)
-                    : fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n", chart(h, m), apart);
+        out += is_empty(h)
+                   ? fmt::format("<p class=\"small\">{}: no cell in a bar. {}</p>\n", xml_escaped(m.axis), apart)
+                   : fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n", svg_markup(chart(h, m)), apart);
     }
     return "<div class=\"figures\">\n" + out + "</div>\n";
 }
 
 }  // namespace barycert::report
+
+namespace barycert {
+
+std::string check_plot(const CheckReport& report, const std::string& name, const std::string& path) {
+    const ExactEnvironment environment;
+    std::vector<draw::Picture> all;
+    for (const report::Measure& m : report::measures_of(report))
+        if (const report::Bins h = report::bins_of(m.values, m.rule); !report::is_empty(h))
+            all.push_back(report::chart(h, m));
+    return draw::file_text(path, draw::in_rows(all, name)).value();
+}
+
+}  // namespace barycert

@@ -65,18 +65,15 @@ std::vector<Mesh::Index> problem_cells(const CheckReport& r, const Mesh& mesh) {
     return cells;
 }
 
-std::string cells_of(const CheckReport& r, const Exhibit& e, std::string_view between) {
-    return joined(r.cell_number(e.cells), between, [](Mesh::Index c) { return c < 0 ? "" : std::to_string(c); });
-}
-
 /// The exhibits by their numbers, and the middle of the first cell of each.
 std::string legend(const CheckReport& r, const Mesh& mesh, const std::vector<Exhibit>& exhibits) {
     std::string out = "<table><tr><th></th><th>cells</th><th>middle of the first one</th></tr>\n";
     for (std::size_t i = 0; i < exhibits.size(); ++i) {
         const Exhibit& e = exhibits[i];
+        const auto number = [](Mesh::Index c) { return c < 0 ? "" : std::to_string(c); };
         const auto rounded = [](double x) { return fmt::format("{:.4g}", x + 0.0); };
         out += fmt::format("<tr><td><span class=\"badge{}\">{}</span></td><td>{}</td><td>({})</td></tr>\n",
-                           e.defect ? " problem" : "", i + 1, cells_of(r, e, ", "),
+                           e.defect ? " problem" : "", i + 1, joined(r.cell_number(e.cells), ", ", number),
                            coordinates(middle_of(mesh, e.cells[0]), mesh.dimension, rounded));
     }
     return out + "</table>\n";

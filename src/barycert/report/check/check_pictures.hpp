@@ -62,10 +62,8 @@ struct View {
     Vector operator()(const Vector& p) const { return {p.dot(x), p.dot(y), p.dot(z)}; }
 };
 
-/// With the longest extent of the points to the right: from where they are broadest.
-View from_above(const std::vector<Vector>& points);
-/// The same along their middle extent.
-View from_the_side(const std::vector<Vector>& points);
+/// With the longest extent of the points to the right, and upwards the middle one, 1: from above; or the least, 0.
+View broad_view(const std::vector<Vector>& points, int up);
 
 /// The edge of a tetrahedron with the smallest dihedral angle, as two corners.
 std::array<std::size_t, 2> sharpest_edge(Points tetrahedron);
@@ -89,7 +87,7 @@ struct BinRule {
     double low = 0, high = 0, width = 0;
 };
 
-struct Histogram {
+struct Bins {
     bool logarithmic = false;  ///< bins are of log10 of the values
     double low = 0, width = 1;
     std::vector<std::uint64_t> counts;
@@ -103,7 +101,7 @@ struct Histogram {
 };
 
 /// Every value is in one bin or counted apart. Values are not negative.
-Histogram histogram(const std::vector<double>& values, const BinRule& rule);
+Bins bins_of(const std::vector<double>& values, const BinRule& rule);
 
 struct Measure {
     std::string name;  ///< in tables
@@ -131,7 +129,6 @@ figure>img{max-width:100%;height:auto}
  text-align:center;font-size:13px;line-height:22px}.badge.problem{background:#c8102e}
 .swatch{display:inline-block;width:11px;height:11px;margin-right:6px;border-radius:2px}
 .swatch.a{background:var(--bar)}.swatch.b{background:var(--second)}
-svg .count{font-size:9px;fill:var(--soft)}
 svg .view{fill:var(--soft)}svg .id{font-size:11px}svg .id{paint-order:stroke;
  stroke:var(--ground);stroke-width:3px;stroke-opacity:.8}
 svg .face{stroke:none;fill-opacity:.16}svg .face.a{fill:var(--bar)}svg .face.b{fill:var(--second)}

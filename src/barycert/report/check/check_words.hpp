@@ -63,11 +63,4 @@ std::vector<std::string> conformity_sentences(const CheckReport& report, std::si
 /// What was done to a mesh, a line each.
 std::vector<std::string> fix_sentences(const FixedMesh& fixed);
 
-/// "1,234,567".
-inline std::string grouped(std::uint64_t n) {
-    std::string digits = std::to_string(n);
-    for (std::size_t i = digits.size(); i > 3; i -= 3) digits.insert(i - 3, ",");
-    return digits;
-}
-
 }  // namespace barycert::report

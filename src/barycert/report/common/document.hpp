@@ -127,12 +127,11 @@ struct Item {
     std::size_t indent = 4;  ///< of lines, on a terminal
 };
 
-/// A histogram.
+/// A histogram, on a terminal.
 struct Bars {
     struct Bar {
         std::string label;
         std::uint64_t count = 0;
-        bool bad = false;
     };
     std::vector<Bar> bars;
 
@@ -145,9 +144,7 @@ struct Bars {
 };
 
 /// Markup of a page, such as pictures: made when the page is written.
-struct Pictures {
-    std::function<std::string()> markup;
-};
+using Pictures = std::function<std::string()>;
 
 class Document {  // NOLINT(bugprone-exception-escape): to move Json does not throw
 public:
@@ -222,6 +219,11 @@ std::string page_text(const Document& document);
     std::string name##_json(const Report& report, const Environment& of) { \
         const ExactEnvironment environment;                                \
         return base::json_text(name##_document(report, of).data, 2);       \
+    }
+#define AUDIT_PAGE(name, Report)                    \
+    std::string name##_html(const Report& report) { \
+        const ExactEnvironment environment;         \
+        return page_text(name##_document(report));  \
     }
 
 /// For sentences that hold of straight sides alone; empty where these are the mesh's own.

@@ -53,10 +53,6 @@ td.bad,p.bad{color:var(--bad);font-weight:bold}.ok{color:var(--good)}
  margin:8px 0;break-inside:avoid}
 .card h3{margin:0 0 2px}.card p{margin:2px 0;overflow-wrap:anywhere}
 code{font:13px/1.4 ui-monospace,"DejaVu Sans Mono",monospace;overflow-wrap:anywhere}
-.bars td{border:0;padding:1px 12px 1px 0;font-size:14px}
-.bars td.w{width:100%;padding-right:0}
-.bars .bar{display:block;height:14px;border-radius:2px;background:var(--bar);min-width:2px}
-.bars .bar.bad{background:var(--bar-bad)}
 button{font:inherit;color:inherit;background:none;border:0;padding:0;text-align:inherit;cursor:pointer}
 button:focus-visible{outline:2px solid var(--bar);outline-offset:2px}
 th button{text-decoration:underline dotted;text-underline-offset:3px}
@@ -71,7 +67,7 @@ svg path{fill:none;stroke-linejoin:round;stroke-linecap:round}
 .m{text-anchor:middle}.e{text-anchor:end}
 svg .tick{fill:var(--soft)}svg .title{font-size:13px}svg .bad{fill:var(--bad)}
 svg .grid{stroke:var(--line)}svg .axis{stroke:var(--soft)}
-svg .bar{fill:var(--bar)}svg .bar.bad{fill:var(--bar-bad)}
+svg .bar{fill:var(--bar)}svg .bar.bad{fill:var(--bar-bad)}svg .count{font-size:9px;fill:var(--soft)}
 svg .halo{stroke:var(--ground);stroke-width:4px;fill:var(--ground)}svg .lead{stroke:var(--soft);stroke-width:.7px}
 footer{margin-top:40px;border-top:1px solid var(--line);padding-top:10px;color:var(--soft);font-size:14px;overflow-wrap:anywhere}
 @media (max-width:560px){body{padding:16px 12px;font-size:15px}.verdict{padding:10px 14px}.verdict b{font-size:23px}
@@ -243,18 +239,8 @@ struct PageWriter {
         out += "</div>\n";
     }
 
-    void operator()(const Bars& b) {
-        out += "<table class=\"bars\">\n";
-        for (const Bars::Bar& bar : b.bars)
-            out += fmt::format("<tr><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"w\">{}</td></tr>\n",
-                               xml_escaped(bar.label), bar.count,
-                               bar.count == 0 ? ""
-                                              : fmt::format("<span class=\"bar{}\" style=\"width:{:.2f}%\"></span>",
-                                                            bar.bad ? " bad" : "", 100 * b.share(bar)));
-        out += "</table>\n";
-    }
-
-    void operator()(const Pictures& p) { out += p.markup(); }
+    void operator()(const Bars& /*on a page a picture*/) {}
+    void operator()(const Pictures& p) { out += p(); }
 
     static std::string head_of(const Column& c) {
         std::string head = c.page.empty() ? c.head : c.page;

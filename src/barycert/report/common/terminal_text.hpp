@@ -11,18 +11,6 @@
 
 namespace barycert::report {
 
-/// At most five characters: "-", "9999", "12.3k", "229k", "1.32M".
-inline std::string brief_count(std::uint64_t n) {
-    if (n == 0) return "-";
-    if (n < 10000) return std::to_string(n);
-    double x = static_cast<double>(n);
-    for (const char* unit : {"k", "M", "G", "T"}) {
-        x /= 1000;
-        if (x < 999.5) return fmt::format("{:.{}f}{}", x, x < 9.995 ? 2 : x < 99.95 ? 1 : 0, unit);
-    }
-    return fmt::format("{:.1e}", static_cast<double>(n));
-}
-
 /// A magnitude in three digits, of at most nine characters; "-" where there is none.
 inline std::string brief(double x) {
     if (std::isnan(x) || x < 0) return "-";
@@ -47,7 +35,7 @@ inline std::string percent(std::uint64_t part, std::uint64_t whole) {
     return fmt::format("{:.{}f}", p, p < 0.1 ? 3 : p < 10 ? 2 : 1);
 }
 
-using base::counted, base::joined, base::shell_word;
+using base::brief_count, base::counted, base::grouped, base::joined, base::shell_word;
 
 /// "2 snapped; 3 extrapolated": how many of each; those of which there are none are left out.
 inline std::string clauses(const std::vector<std::pair<std::uint64_t, std::string>>& all,

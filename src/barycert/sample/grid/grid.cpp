@@ -84,8 +84,7 @@ double Grid::coordinate(std::size_t axis, std::int64_t i) const {
 Result<Grid> grid_over(int dimension, const std::array<std::int64_t, 3>& counts, const std::array<double, 3>& low,
                        const std::array<double, 3>& high) {
     const ExactEnvironment environment;
-    Grid grid;
-    grid.dimension = dimension;
+    Grid grid{.dimension = dimension};
     if (Status status = check_box(dimension, low, high); !status) return status.error();
     for (std::size_t k = 0; k < static_cast<std::size_t>(dimension); ++k) {
         if (Status status = check_count(k, static_cast<double>(counts[k])); !status) return status.error();
@@ -107,8 +106,7 @@ Result<Grid> grid_over(int dimension, const std::array<std::int64_t, 3>& counts,
 Result<Grid> grid_spaced(int dimension, const std::array<double, 3>& spacing, const std::array<double, 3>& low,
                          const std::array<double, 3>& high) {
     const ExactEnvironment environment;
-    Grid grid;
-    grid.dimension = dimension;
+    Grid grid{.dimension = dimension};
     if (Status status = check_box(dimension, low, high); !status) return status.error();
     for (std::size_t k = 0; k < static_cast<std::size_t>(dimension); ++k) {
         if (!(spacing[k] > 0) || !std::isfinite(spacing[k]))

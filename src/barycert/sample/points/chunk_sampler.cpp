@@ -16,8 +16,7 @@ void gradients_at(const SamplerData& data, Rounding rounding, const Field& field
     const CellNodes nodes(mesh, static_cast<std::size_t>(cell));
     const auto d = static_cast<std::size_t>(mesh.dimension), components = static_cast<std::size_t>(field.components);
     std::array<double, 12> vertices{};
-    for (std::size_t i = 0; i <= d; ++i)
-        std::copy_n(&mesh.points[d * static_cast<std::size_t>(nodes.at[i])], d, &vertices[d * i]);
+    for (std::size_t i = 0; i <= d; ++i) std::copy_n(mesh.point(nodes.at[i]), d, &vertices[d * i]);
     for (std::size_t k = 0; k < components; ++k) {
         std::array<double, 10> values{};
         for (std::size_t i = 0; i < nodes.count; ++i)
@@ -91,7 +90,7 @@ void snapped_values(const SamplerData& data, Rounding rounding, const Nearest& n
                     const std::array<double, 3>& point, double* values, TierCounts& tiers) {
     const Mesh& mesh = *data.located().mesh;
     const auto cell = static_cast<std::size_t>(nearest.cell);
-    const locate::NearFeature feature = feature_of(mesh, nearest);
+    const locate::NearFeature feature = locate::near_feature(nearest.nodes, mesh.points, data.index().dimension());
     const bool correct = rounding == Rounding::correct, vertex = feature.count == 1;
     TierCounts used;
     if (vertex || (!data.quadratic && !correct)) {
@@ -235,8 +234,7 @@ void ChunkSampler::straight(const locate::PointRecord* points, std::size_t count
         data_.quadratic ? interpolate_second_order(points, inside) : interpolate_linear(points, inside);
     for (std::size_t i = 0; data_.has_rest() && i < inside; ++i) {
         const locate::PointRecord& point = points[inside_[i].point];
-        set_rest_of_row(data_, options_.rounding, index.original[static_cast<std::size_t>(inside_[i].cell)],
-                        point.at.data(), row(point));
+        set_rest_of_row(data_, options_.rounding, index.original[inside_[i].cell], point.at.data(), row(point));
     }
 }
 

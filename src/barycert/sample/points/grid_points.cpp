@@ -127,22 +127,15 @@ Status sample_on_grid(const SamplerData& data, std::span<const double> points, c
                       Table& out) {
     if (gives_distances(options.outside)) return locate::not_listed("the nearest cell");
     if (options.rounding == Rounding::plain) return locate::not_listed("values in plain double");
-    const std::size_t d = data.index().dimension(), count = out.cells.size();
-    out.values.resize(data.width * count);
+    const std::size_t d = data.index().dimension();
+    constexpr std::size_t grain = std::size_t{1} << 12;
     const GridSampler sampler(data, options);
-    out.counts = base::in_arena(options.threads, count, [&] {
-        constexpr std::size_t grain = std::size_t{1} << 12;
-        return base::parallel_reduce(
-            count, grain, SampleCounts{},
-            [&](std::size_t begin, std::size_t end, SampleCounts& counts) {
-                counts = sampler.sample(points.subspan(d * begin, d * (end - begin)),
-                                        {out.cells.data() + begin, out.features.data() + begin,
-                                         out.values.data() + data.width * begin, nullptr});
-            },
-            [](SampleCounts& all, const SampleCounts& part) { all.add(part); });
-    });
-    leave_out_hidden(data, out.values.data(), count);
-    out.values.resize(data.columns.size() * count);
+    const auto sample = [&](std::size_t begin, std::size_t end, SampleCounts& counts) {
+        counts = sampler.sample(
+            points.subspan(d * begin, d * (end - begin)),
+            {out.cells.data() + begin, out.features.data() + begin, out.values.data() + data.width * begin, nullptr});
+    };
+    out.counts = set_values(data, options.threads, grain, out, sample);
     return Done{};
 }
 

@@ -9,19 +9,6 @@
 
 namespace barycert::sample {
 
-/// The vertex, edge or face on which the nearest point lies.
-inline locate::NearFeature feature_of(const Mesh& mesh, const Nearest& nearest) {
-    locate::NearFeature f;
-    const auto d = static_cast<std::size_t>(mesh.dimension);
-    for (const Mesh::Index node : nearest.nodes) {
-        if (node < 0) continue;
-        const auto i = static_cast<std::size_t>(f.count++);
-        f.nodes[i] = node;
-        std::copy_n(&mesh.points[d * static_cast<std::size_t>(node)], d, f.at[i].begin());
-    }
-    return f;
-}
-
 /// The nodes of a cell: corners and, if it is of second order, behind them those at mid-edges.
 struct CellNodes {
     std::array<Mesh::Index, 10> at{};

@@ -304,11 +304,10 @@ Status Sampler::evaluate(std::span<const double> points, const SampleOptions& op
     sample::resize(*data_, options, count, out);
     const std::vector<locate::Place>& places = data_->located().places();
     const locate::CellIndex& index = data_->index();
-    out.values.resize(data_->width * count);
-    const sample::BlockRows rows{out.cells.data(), out.features.data(), out.values.data(),
-                                 out.distances.empty() ? nullptr : out.distances.data()};
     constexpr std::size_t grain = std::size_t{1} << 13;
     const auto evaluate_rows = [&](std::size_t first, std::size_t last, SampleCounts& counts) {
+        const sample::BlockRows rows{out.cells.data(), out.features.data(), out.values.data(),
+                                     out.distances.empty() ? nullptr : out.distances.data()};
         sample::ChunkSampler sampler(*data_, options, rows, false);
         for (std::size_t row = first; row < last; ++row) {
             locate::PointRecord record{};
@@ -325,12 +324,7 @@ Status Sampler::evaluate(std::span<const double> points, const SampleOptions& op
         sampler.flush();
         counts = sampler.counts();
     };
-    const SampleCounts counts = base::in_arena(options.threads, count, [&] {
-        return base::parallel_reduce(count, grain, SampleCounts{}, evaluate_rows,
-                                     [](SampleCounts& all, const SampleCounts& part) { all.add(part); });
-    });
-    sample::leave_out_hidden(*data_, out.values.data(), count);
-    out.values.resize(data_->columns.size() * count);
+    const SampleCounts counts = sample::set_values(*data_, options.threads, grain, out, evaluate_rows);
     if (Status status = sample::apply_policies(points, finite.has_value(), options, first_point, out); !status)
         return status;
     out.counts.add(counts);

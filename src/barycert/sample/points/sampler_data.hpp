@@ -76,4 +76,19 @@ inline void leave_out_hidden(const SamplerData& data, double* rows, std::size_t 
         std::copy_n(rows + data.width * i + data.hidden, columns, rows + columns * i);
 }
 
+/// Sets the values of the rows, and returns their counts, by set(begin, end, counts) for parts of them: `width` numbers
+/// a row, of which the columns are left in the end.
+template <class Set>
+SampleCounts set_values(const SamplerData& data, int threads, std::size_t grain, Table& out, const Set& set) {
+    const std::size_t count = out.cells.size();
+    out.values.resize(data.width * count);
+    const SampleCounts counts = base::in_arena(threads, count, [&] {
+        return base::parallel_reduce(count, grain, SampleCounts{}, set,
+                                     [](SampleCounts& all, const SampleCounts& part) { all.add(part); });
+    });
+    leave_out_hidden(data, out.values.data(), count);
+    out.values.resize(data.columns.size() * count);
+    return counts;
+}
+
 }  // namespace barycert::sample

@@ -87,8 +87,7 @@ private:
         for (std::size_t j = 0; j < count; ++j) {
             const sample::CellNodes nodes(mesh_, static_cast<std::size_t>(cells_[j]));
             for (std::size_t i = 0; i < corners_; ++i)
-                std::copy_n(&mesh_.points[d_ * static_cast<std::size_t>(nodes.at[i])], d_,
-                            &places_[d_ * (nodes_ * j + i)]);
+                std::copy_n(mesh_.point(nodes.at[i]), d_, &places_[d_ * (nodes_ * j + i)]);
         }
         const auto some = [&](const auto& all, std::size_t each) { return std::span(all).first(each * count); };
         const MeshQueries queries{simplex_, places_, some(corner_numbers_, corners_), some(own_, 1), points_};
@@ -100,7 +99,7 @@ private:
         Nearest nearest;
         if (outside_.kind == Outside::nearest && base::all_finite({point, d_}))
             nearest = *locator_.nearest(point, outside_.limit);
-        const locate::NearFeature feature = sample::feature_of(mesh_, nearest);
+        const locate::NearFeature feature = locate::near_feature(nearest.nodes, mesh_.points, d_);
         std::array<double, 3> at{};
         std::copy_n(point, d_, at.begin());
         if (nearest.cell < 0) {
