@@ -344,8 +344,7 @@ TEST(RenderPictures, AreThoseOfTheDocuments) {
     std::size_t count = 0;
     for (const std::string document : {"rendering", "gallery"}) {
         for (const std::string& line : lines_of(read_file(BARYCERT_DATA_DIR "/../doc/" + document + ".md"))) {
-            const std::string begin = "./run barycert ",
-                              end = contains(line, " --plot ") ? " --plot " : " --output ";
+            const std::string begin = "./run barycert ", end = contains(line, " --plot ") ? " --plot " : " --output ";
             const std::size_t output = line.find(end);
             if (!line.starts_with(begin) || output == std::string::npos) continue;
             std::string name =
@@ -357,8 +356,7 @@ TEST(RenderPictures, AreThoseOfTheDocuments) {
             if (contains(line, "mesh broken") || contains(line, "turning.txt") || contains(line, ".csv")) continue;
             ++count;
             const std::string command = line.substr(begin.size(), output - begin.size());
-            const Ended r =
-                run_shell("cd " BARYCERT_DATA_DIR "/.. && barycert " + command + " --quiet" + end + path);
+            const Ended r = run_shell("cd " BARYCERT_DATA_DIR "/.. && barycert " + command + " --quiet" + end + path);
             ASSERT_EQ(r.code, 0) << r.err;
             const Image drawn = read_png(path).value(), kept = read_png(golden).value();
             ASSERT_EQ(drawn.width, kept.width);

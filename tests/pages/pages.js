@@ -222,6 +222,14 @@ async function turning(opened, mesh) {
       check(!first.equals(await picture()), `${where}: does not turn`);
       await page.getByRole("button", { name: "Reset" }).click();
       check(first.equals(await picture()), `${where}: reset does not bring it back`);
+      for (const key of ["ArrowRight", "Shift+ArrowLeft"]) {
+        await page.locator(".turning canvas").focus();
+        for (let k = 0; k < 5; ++k) await page.keyboard.press(key);
+        await page.locator(".turning canvas").evaluate((canvas) => canvas.blur());
+        check(!first.equals(await picture()), `${where}: ${key} does nothing`);
+        await page.getByRole("button", { name: "Reset" }).click();
+        check(first.equals(await picture()), `${where}: after ${key} reset does not bring it back`);
+      }
       await page.getByRole("combobox", { name: /^Cut/ }).selectOption("x");
       check(!first.equals(await picture()), `${where}: is not cut`);
       await page.mouse.click(box.x + box.width / 2, box.y + box.height * 0.2);
