@@ -74,7 +74,7 @@ a PLC, if it is valid and encloses a region: then TetGen can mesh it. --delaunay
     a.reports.file(
         o, "--html",
         "Write the report as an HTML page with histograms and pictures of cells; - is stdout and suppresses the table");
-    a.reports.file(o, "--plot", "Draw the histograms of volumes, angles and ratios: .png .svg .pdf");
+    a.reports.picture(o, "--plot", "Draw the histograms of volumes, angles and ratios");
     o.text("--vtu", job.measures,
            "Write the mesh with measures and defects of each cell as VTU (a surface: .vtp), for ParaView");
     o.text("--picture", job.picture, "Draw a surface from two sides, triangles with defects red: .png");

@@ -51,6 +51,13 @@ public:
         files_.push_back({option, ""});
         o.text(option, files_.back().path, help);
     }
+    /// One whose form goes by its suffix.
+    void picture(const Options& o, const char* option, const std::string& help) {
+        std::string& path = files_.emplace_back(base::NamedFile{option, ""}).path;
+        o.taken(option, "FILE", help + ": .png .svg .pdf; - is SVG on stdout",
+                "a name that ends in .png, .svg or .pdf, or -",
+                [&path](const std::string& name) { return is_figure_name(path = name) || name == "-"; });
+    }
     /// --junit, --sarif, --annotations. `failures`: what is reported as failed, as in "broken rules".
     void ci(const Options& o, const std::string& failures);
     void quiet(const Options& o, const char* help) { o.flag("--quiet", quiet_, help); }

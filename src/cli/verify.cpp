@@ -83,7 +83,7 @@ Exit codes: 0 all rows are right, 1 some are wrong (see --fail-on), 2 usage or i
     o.threads(job.options.threads);
     a.reports.file(o, "--json", "Write the report as JSON; - is stdout");
     a.reports.file(o, "--html", "Write the report as an HTML page; - is stdout");
-    a.reports.file(o, "--plot", "Draw histograms of the errors, in ulps and in parts of the range: .png .svg .pdf");
+    a.reports.picture(o, "--plot", "Draw histograms of the errors, in ulps and in parts of the range");
     a.reports.ci(o, "kinds of wrong rows (see --fail-on)");
     a.reports.quiet(o, "Print no report and no progress");
 }

@@ -236,6 +236,35 @@ TEST(Verify, ThePageHoldsWhatTheJsonHolds) {
     for (const char* alien : {"href", "src=", "url(", "@import"}) EXPECT_FALSE(contains(html, alien)) << alien;
 }
 
+TEST(Verify, HistogramsAreFilesBySuffix) {
+    const Scratch scratch;
+    const std::string mesh = BARYCERT_DATA_DIR "/meshes/bracket", results = scratch.path("r.csv");
+    ASSERT_EQ(run_shell("printf '1,1,0.1,5\\n2,1,0.1,5\\n' > " + results).code, 0);
+    const auto drawn = [&](const std::string& name, const std::string& more) {
+        const std::string path = name == "-" ? name : scratch.path(name);
+        const Ended r = run_shell("barycert " + more + " --quiet --plot " + path);
+        EXPECT_EQ(r.err, "");
+        return name == "-" ? r.out : read_file(path);
+    };
+    for (const std::string& command :
+         {"check " + mesh, "verify " + mesh + " --results " + results +
+                               " --columns 1,2,3 --value attribute0=column4 --fields attribute0"}) {
+        EXPECT_TRUE(drawn("h.png", command).starts_with("\x89PNG")) << command;
+        EXPECT_TRUE(drawn("h.pdf", command).starts_with("%PDF-")) << command;
+        EXPECT_EQ(drawn("h.svg", command), drawn("-", command));
+        EXPECT_TRUE(contains(drawn("-", command), "<svg")) << command;
+        const Ended r = run_shell("barycert " + command + " --quiet --plot " + scratch.path("h.gif"));
+        EXPECT_EQ(r.code, 2);
+        EXPECT_TRUE(contains(r.err, ".png, .svg or .pdf")) << r.err;
+    }
+    EXPECT_TRUE(contains(drawn("-", "check " + mesh), "smallest dihedral angle"));
+    const std::string surface = scratch.path("s.off");
+    ASSERT_EQ(run_shell("printf 'OFF\\n3 1 0\\n0 0 0\\n1 0 0\\n0 1 0\\n3 0 1 2\\n' > " + surface).code, 0);
+    const Ended r = run_shell("barycert check " + surface + " --quiet --plot " + scratch.path("h.svg"));
+    EXPECT_EQ(r.code, 2);
+    EXPECT_TRUE(contains(r.err, "surfaces")) << r.err;
+}
+
 TEST(Verify, BadInput) {
     const Scratch scratch;
     const std::string two = put_two_cells(scratch);

@@ -186,6 +186,7 @@ std::vector<Picture> error_pictures(const VerifyReport& s, std::size_t c) {
 /// The errors of a column by powers of ten; on a terminal where there are some.
 void tell_errors(Document& d, const VerifyReport& s, std::size_t c) {
     const ValueErrors& e = s.verdicts.columns[c];
+    if (e.values == e.identical) return;  // one bar: the table says it
     const auto figures = [&s, c] {
         return "<div class=\"figures\">\n" + joined(error_pictures(s, c), "", svg_markup) + "</div>\n";
     };
@@ -194,14 +195,14 @@ void tell_errors(Document& d, const VerifyReport& s, std::size_t c) {
     const auto& counts = e.by_relative;
     const auto first = std::ranges::find_if(counts, some);
     const auto last = std::find_if(counts.rbegin(), counts.rend(), some).base();
-    Bars bars;
-    for (auto at = first; at < last; ++at) {
-        const auto b = static_cast<std::size_t>(at - counts.begin());
-        bars.bars.push_back({b == 0 ? "right" : base::decade_label(b), *at});
-    }
-    if (e.values == e.identical) return;  // one bar: the table says it
     d.section(fmt::format("errors of {} in parts of its range", s.columns[c]), For::terminal, 3);
-    d.add(std::move(bars), For::terminal);
+    const auto most = static_cast<double>(*std::ranges::max_element(counts));
+    for (auto at = first; at < last; ++at) {
+        const std::string label =
+            at == counts.begin() ? "right" : base::decade_label(static_cast<std::size_t>(at - counts.begin()));
+        const auto length = static_cast<std::size_t>(std::ceil(50 * (static_cast<double>(*at) / most)));
+        d.say(fmt::format("{:>14} {:>12}  {}", label, *at, std::string(length, '#')), Tone::plain, For::terminal);
+    }
 }
 
 Json errors_json(const VerifyReport& s) {

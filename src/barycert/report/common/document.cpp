@@ -155,12 +155,6 @@ struct Writer {
         }
     }
 
-    void operator()(const Bars& b) {
-        for (const Bars::Bar& bar : b.bars)
-            out += fmt::format("{:>14} {:>12}  {}\n", bar.label, bar.count,
-                               std::string(static_cast<std::size_t>(std::ceil(50 * b.share(bar))), '#'));
-    }
-
     void operator()(const Pictures& /*markup*/) {}
 
     std::string toned(const std::string& text, Tone tone) const {

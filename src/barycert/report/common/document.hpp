@@ -127,22 +127,6 @@ struct Item {
     std::size_t indent = 4;  ///< of lines, on a terminal
 };
 
-/// A histogram, on a terminal.
-struct Bars {
-    struct Bar {
-        std::string label;
-        std::uint64_t count = 0;
-    };
-    std::vector<Bar> bars;
-
-    /// Of the tallest.
-    double share(const Bar& bar) const {
-        std::uint64_t most = 1;
-        for (const Bar& b : bars) most = std::max(most, b.count);
-        return static_cast<double>(bar.count) / static_cast<double>(most);
-    }
-};
-
 /// Markup of a page, such as pictures: made when the page is written.
 using Pictures = std::function<std::string()>;
 
@@ -154,7 +138,7 @@ public:
     std::string_view style = {};           ///< a page's, after the common one
     Json data = {};
 
-    using Content = std::variant<Headline, Section, Paragraph, Named, Listing, Item, Bars, Pictures>;
+    using Content = std::variant<Headline, Section, Paragraph, Named, Listing, Item, Pictures>;
     struct Block {
         Content content;
         For whom;

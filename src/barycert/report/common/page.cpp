@@ -239,7 +239,6 @@ struct PageWriter {
         out += "</div>\n";
     }
 
-    void operator()(const Bars& /*on a page a picture*/) {}
     void operator()(const Pictures& p) { out += p(); }
 
     static std::string head_of(const Column& c) {
