@@ -62,11 +62,13 @@ Picture in_rows(const std::vector<Picture>& all, const std::string& title) {
     constexpr double head = 48, left = 12;
     double wide = 0, tall = 0;
     for (const Picture& p : all) wide = std::max(wide, p.width), tall = std::max(tall, p.height);
-    const double rows = static_cast<double>((all.size() + 1) / 2), columns = all.size() < 2 ? 1 : 2;
-    Picture out(left + columns * wide, head + rows * tall, title);
+    const std::size_t rows = (all.size() + 1) / 2, columns = std::min<std::size_t>(all.size(), 2);
+    Picture out(left + static_cast<double>(columns) * wide, head + static_cast<double>(rows) * tall, title);
     out.text({out.width / 2, 30}, title, "head m");
-    for (std::size_t i = 0; i < all.size(); ++i)
-        out.add(all[i], {left + wide * static_cast<double>(i % 2), head + tall * static_cast<double>(i / 2)});
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const std::size_t column = i % 2, row = i / 2;
+        out.add(all[i], {left + wide * static_cast<double>(column), head + tall * static_cast<double>(row)});
+    }
     return out;
 }
 
