@@ -158,7 +158,7 @@ bool is_wrong(const VerifyReport& s, std::size_t b) {
 /// Of a column in ulps, and in parts of its range; red: wrong.
 std::vector<Picture> error_pictures(const VerifyReport& s, std::size_t c) {
     const ValueErrors& e = s.verdicts.columns[c];
-    const auto picture = [&](auto counts, const char* unit, std::vector<Tick> ticks, auto range, auto bad) {
+    const auto picture = [&](auto counts, const char* unit, const std::vector<Tick>& ticks, auto range, auto bad) {
         const auto last =
             std::find_if(counts.rbegin(), counts.rend() - 8, [](std::uint64_t n) { return n != 0; }).base();
         Axis x{.high = static_cast<double>(last - counts.begin()),
