@@ -1,5 +1,5 @@
-/// Pictures for people: surfaces, lines and arrows in colours of values, seen by a camera, with axes, a colour bar and
-/// a title, as .png, .svg or .pdf.
+/// Pictures for people: surfaces, lines, arrows and points in colours of values, seen by a camera, with axes, a colour
+/// bar and a title, as .png, .svg or .pdf.
 ///
 /// A surface is drawn by scene.hpp's rules. Lines are as wide everywhere, and hidden where a surface is before them.
 /// Surfaces in space are lit: their colour is multiplied by 0.35 to 1; light falls from the upper left behind the
@@ -112,7 +112,7 @@ struct FigureCounts {
     RasterSize size;  ///< of the whole picture: pixels of a .png, else 96ths of an inch
     RenderCounts render;
     double low = 0, high = 0;            ///< the range; NaN if there are no values and none was given
-    std::uint64_t without_value = 0;     ///< triangles drawn in grey, for a value of theirs is not finite
+    std::uint64_t without_value = 0;     ///< triangles, arrows and discs in grey, for a value is not finite
     std::uint64_t below = 0, above = 0;  ///< values beyond the range, drawn as its ends: at corners, ...
     GridCounts grid;
 };
@@ -128,9 +128,10 @@ Result<Image> draw_figure(const Figure& figure, FigureCounts* counts = nullptr);
 bool is_figure_name(std::string_view path);
 
 /// In .svg and .pdf text and axes are text and lines. The rest is an image of 300 dpi; or polygons and lines, if it
-/// lies in the plane and is in sight, has one colour a triangle, and fewer than 20,000 triangles. As .png a grid
-/// without bar, axes and title, with a resolution of 1, has its pixels alone, clear where there is no value, and up to
-/// a million pixels a side, written line by line. Error: as draw_figure; the file cannot be written.
+/// is of surfaces and lines in the plane, with a zoom of at most 1, one colour a triangle, and fewer than 20,000
+/// triangles. As .png a grid without bar, axes and title, with a resolution of 1, has its pixels alone, clear where
+/// there is no value, and up to a million pixels a side, written line by line. Error: as draw_figure; the file cannot
+/// be written.
 Status write_figure(const std::string& path, const Figure& figure, FigureCounts* counts = nullptr);
 
 }  // namespace barycert

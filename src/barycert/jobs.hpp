@@ -193,6 +193,7 @@ struct CheckJob : MeshJob {
     std::string plc;            ///< a PLC, whose facets are to be unions of faces of cells
     std::string measures;       ///< a .vtu file: the mesh with measures and defects of each cell; .vtp: the surface
     std::string picture;        ///< a .png file: see draw_checked(); of surfaces and PLCs
+    bool plot = false;          ///< check_plot() will be called: of meshes alone
     /// Where to write a repaired copy, one of them at most: VTK's or Gmsh's file, or a stem of TetGen's. `fix` merges
     /// coincident nodes, drops degenerate and duplicate cells and turns negative ones; fix_orientation turns alone.
     std::string fix, fix_orientation;
@@ -364,6 +365,7 @@ struct SceneChoice {
     std::int64_t arrow_count = 400;        ///< about so many
     std::vector<double> points = {};       ///< coordinates of discs, in colours of the field there
     double point_size = 6;                 ///< pixels across
+    BuildOptions cells = {};               ///< how they are located
     std::vector<Mesh::Index> marked = {};  ///< cells by their numbers, in red
 };
 
@@ -374,7 +376,8 @@ struct RenderJob : MeshJob {
     FigureOptions figure = {};  ///< size, method, rounding and samples of all pictures; the rest of that of a mesh
     SceneChoice show = {};      ///< of a mesh
     std::string points;         ///< a file of points to be among those of `show`, as for open_points
-    std::string scene;          ///< a file (.json)
+    std::vector<std::string> columns = {};                     ///< of its coordinates: PointOptions::columns
+    std::string scene;                                         ///< a file (.json)
     Interpolation interpolation = Interpolation::perspective;  ///< of a cube
     std::string image;                                         ///< of a texture: .png; empty: one of 2 by 2 texels
     bool triangle = false;                                     ///< what that is put on; else a square

@@ -77,6 +77,10 @@ struct Mesh {
         std::vector<std::uint16_t> inside;    ///< of each cell, what of its boundary lies inside (mesh/pulling.hpp)
 
         std::size_t count() const { return types.size(); }
+        std::span<const Index> nodes_of(std::size_t shape) const {
+            const std::int64_t begin = shape == 0 ? 0 : ends[shape - 1];
+            return {nodes.data() + begin, nodes.data() + ends[shape]};
+        }
         friend bool operator==(const Shapes&, const Shapes&) = default;
     };
 

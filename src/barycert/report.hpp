@@ -54,8 +54,9 @@ std::string check_json(const CheckReport& report, const std::string& name, const
 /// Cost: some passes over the mesh, and its boundary once more. Of broken meshes nothing is drawn that has no place.
 std::string check_html(const CheckReport& report, const Mesh& mesh, const std::string& mesh_name,
                        const FixedMesh* fixed = nullptr);
-/// The histograms of its measures as the bytes of a picture, by the suffix of `path`: .png, .pdf, else SVG.
-std::string check_plot(const CheckReport& report, const std::string& mesh_name, const std::string& path);
+/// The histograms of its measures as the bytes of a picture, by the suffix of `path`: .png, .pdf, else SVG. Error:
+/// there are none; a side of more than 32767 pixels.
+Result<std::string> check_plot(const CheckReport& report, const std::string& mesh_name, const std::string& path);
 /// Of a surface or a PLC, with draw_checked() if it can be drawn.
 std::string check_html(const CheckReport& report, const Surface& surface, const std::string& name);
 
@@ -80,7 +81,7 @@ std::string verify_json(const VerifyReport& summary, const Environment& environm
 std::string verify_html(const VerifyReport& summary, const Environment& environment);
 
 /// Histograms of the errors of each column, in ulps and in parts of its range, as check_plot.
-std::string verify_plot(const VerifyReport& summary, const std::string& path);
+Result<std::string> verify_plot(const VerifyReport& summary, const std::string& path);
 
 // What a run of cutting did, for people and as JSON.
 

@@ -70,22 +70,15 @@ int run_rules(AuditArguments& a, void (*run)(Audit&), std::string (*text)(const 
     });
 }
 
-Told told_of_mutants(const MutantReport& report) {
-    return {.files = {{"--json", [&] { return mutants_json(report); }}},
-            .text = [&](bool colour) { return mutants_text(report, {.colour = colour, .command = command_name()}); },
-            .clean = report.caught() == report.mutants.size()};
-}
-
 Told told_of(const AuditArguments& a, const PreparedAudit& prepared, const AuditReport& report,
              const BaselineComparison* comparison, const std::vector<OtherResults>& others) {
-    TerminalStyle style = style_to_repeat(a.reports, a.job.kernels);
+    TerminalStyle style = style_to_repeat(a.reports, a.job.kernels, colour_on_stdout());
     style.mesh_arguments = a.meshes;
     style.wide = a.wide;
     const auto page = [=, &a, &prepared, &report, &others]() -> Result<std::string> {
         std::vector<Kernel> kernels;
         for (const KernelResult& k : report.kernels) kernels.push_back(k.kernel);
         AuditPage with{.style = style, .command_line = command_line(), .signs = sign_pictures(kernels)};
-        with.style.colour = colour_on_stdout();
         with.maps = mesh_maps(kernels, prepared.meshes, a.job.options.seed, a.job.options.threads);
         with.others = others;
         return audit_html(report, with);
@@ -96,11 +89,7 @@ Told told_of(const AuditArguments& a, const PreparedAudit& prepared, const Audit
                   {"--html", page},
                   {"--witnesses", [&report] { return witnesses_json(report); }},
                   {"--plot", [&report] { return condition_plot(report); }}},
-        .text =
-            [=, &report](bool colour) mutable {
-                style.colour = colour;
-                return audit_text(report, style);
-            },
+        .text = [=, &report](bool /*on_stdout*/) { return audit_text(report, style); },
         .ci = [=, &a, &report, &prepared] { return audit_outcomes(report, a.rules, comparison, prepared.libraries); },
         .curved = report.curved,
         .failures = (comparison ? baseline_text(*comparison, prepared.baseline->path) : "") + failures_of(broken),
@@ -124,7 +113,12 @@ int run_audit(AuditArguments& a) {
     }
     if (!a.reports.is_quiet()) tell_important(prepared.notes);
     prepared.options.progress = progress_of(a);
-    if (a.mutants) return a.reports.end(audit_mutants(prepared.options, prepared.meshes), told_of_mutants);
+    if (a.mutants)
+        return a.reports.end(audit_mutants(prepared.options, prepared.meshes), [](const MutantReport& report) {
+            return Told{.files = {{"--json", [&] { return mutants_json(report); }}},
+                        .text = [&](bool colour) { return mutants_text(report, {.colour = colour}); },
+                        .clean = report.caught() == report.mutants.size()};
+        });
     std::optional<BaselineComparison> comparison;
     return a.reports.end(barycert::run_audit(prepared.options, prepared.meshes), [&](const AuditReport& report) {
         Status compared = Done{};

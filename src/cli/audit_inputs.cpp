@@ -35,8 +35,7 @@ int list(Arguments<Chosen>& a) {
 
 Result<std::vector<NamedMesh>> meshes_or_own(const std::vector<std::string>& paths) {
     std::vector<NamedMesh> meshes;
-    meshes.reserve(paths.size());
-    for (const std::string& path : paths) meshes.push_back({path, path});
+    std::ranges::transform(paths, std::back_inserter(meshes), [](const auto& path) { return NamedMesh{path, path}; });
     if (!meshes.empty()) return meshes;
     const std::string folder = (data_folder() / "meshes").string();
     std::error_code trouble;
@@ -89,10 +88,9 @@ Result<std::vector<Kernel>> chosen_kernels(const KernelChoice& choice) {
 }
 
 std::string failures_of(const std::vector<Violation>& violations) {
-    std::string lines;
-    for (const Violation& v : violations)
-        lines += failure(v.kernel + ": " + v.figure, base::shortest(v.value), base::shortest(v.limit));
-    return lines;
+    return base::joined(violations, "", [](const Violation& v) {
+        return failure(v.kernel + ": " + v.figure, base::shortest(v.value), base::shortest(v.limit));
+    });
 }
 
 // barycert kernels, barycert families: list and explain.

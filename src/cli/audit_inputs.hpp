@@ -14,7 +14,7 @@ void add_containment(const Options& o, KernelChoice& kernels);
 void add_kernel_rules(const Options& o, KernelChoice& kernels);
 
 /// For commands to repeat: how the program is called, the kernels as the user gave them, where witnesses are written.
-TerminalStyle style_to_repeat(const Reports& reports, const KernelChoice& kernels, bool colour = false);
+TerminalStyle style_to_repeat(const Reports& reports, const KernelChoice& kernels, bool colour);
 
 inline void add_count(const Options& o, std::uint64_t& count, int most_bits, const std::string& help) {
     o.integer("--count", count, std::uint64_t{1}, std::uint64_t{1} << most_bits, help);

@@ -8,6 +8,7 @@ namespace {
 
 int run_check(Arguments<CheckJob>& a) {
     a.reports.begin(a.job);
+    a.job.plot = !a.reports.path("--plot").empty();
     return a.reports.end(check_files(a.job), [&](const CheckedMesh& c) {
         const FixedMesh* const fixed = c.copied ? &*c.fixed : nullptr;
         Told told{.text =
@@ -32,10 +33,7 @@ int run_check(Arguments<CheckJob>& a) {
             return c.report.surface ? check_html(c.report, c.surface, c.name)
                                     : check_html(c.report, c.mesh, c.name, fixed);
         };
-        told.files["--plot"] = [&a, &c]() -> Result<std::string> {
-            if (c.report.surface) return Error{.what = "--plot draws measures of cells, which surfaces have not"};
-            return check_plot(c.report, c.name, a.reports.path("--plot"));
-        };
+        told.files["--plot"] = [&a, &c] { return check_plot(c.report, c.name, a.reports.path("--plot")); };
         return told;
     });
 }

@@ -33,13 +33,6 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 7> other_nam
     {"values", "--value"},
 }};
 
-/// What the rows of a file of a field belong to.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 3> of_rows{{
-    {"FieldFile::Of::points", "--point-field"},
-    {"FieldFile::Of::cells", "--cell-field"},
-    {"FieldFile::Of::either", "--field"},
-}};
-
 std::string option_of(std::string_view member) {
     for (const auto& [name, option] : other_names) {
         if (name == member) return std::string(option);
@@ -50,9 +43,8 @@ std::string option_of(std::string_view member) {
     return option;
 }
 
-bool in_name(char c) {
-    return (c >= 'a' && c <= 'z') || c == '_';
-}
+/// Of names of members.
+constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyz_";
 
 std::string remembered_arguments;
 
@@ -98,14 +90,18 @@ std::string with_command_name(std::string text) {
 }
 
 std::string with_options(std::string text) {
-    for (const auto& [name, option] : of_rows) base::replace_all(text, name, option);
+    // What the rows of a file of a field belong to.
+    for (const auto& [name, option] : {std::pair("FieldFile::Of::points", "--point-field"),
+                                       {"FieldFile::Of::cells", "--cell-field"},
+                                       {"FieldFile::Of::either", "--field"}})
+        base::replace_all(text, name, option);
     for (const std::string_view owner : {"job.", "options."}) {
         for (std::size_t at = text.find(owner); at != std::string::npos; at = text.find(owner, at + 1)) {
             const std::size_t begin = at + owner.size();
-            std::size_t end = begin;
-            while (end < text.size() && in_name(text[end])) ++end;
+            const std::size_t end = std::min(text.find_first_not_of(letters, begin), text.size());
             const std::string option = option_of(std::string_view(text).substr(begin, end - begin));
-            const bool part = at > 0 && (in_name(text[at - 1]) || text[at - 1] == '"' || text[at - 1] == '/');
+            const bool part = at > 0 && (letters.find(text[at - 1]) != std::string::npos || text[at - 1] == '"' ||
+                                         text[at - 1] == '/');
             if (!option.empty() && !part) text.replace(at, end - at, option);
         }
     }

@@ -2,6 +2,7 @@
 
 #include <cctype>
 
+#include "barycert/draw/colour_map.hpp"
 #include "options.hpp"
 
 namespace barycert::cli {
@@ -41,14 +42,10 @@ void Options::figure(FigureOptions& f, Text what) const {
            });
     flag("--log", f.log, help("colours by the logarithm of values, which are to be above 0"));
     flag("--labels", f.labels, help("a colour of its own for each value, 12 at most, such as numbers of materials"));
-    const std::vector<std::string_view> maps = colour_map_names();
-    const std::vector<std::string> names(maps.begin(), maps.end());
     parsed("--colormap", "NAME",
            help("colours from low to high, by matplotlib's names; NAME_r: turned round; default: ") + f.colour_map,
-           joined(names) + ", perhaps with _r", f.colour_map, [names](Text text) -> std::optional<std::string> {
-               const std::string name = text.ends_with("_r") ? text.substr(0, text.size() - 2) : text;
-               return std::ranges::count(names, name) == 0 ? std::nullopt : std::optional(text);
-           });
+           fmt::format("{}, perhaps with _r", fmt::join(colour_map_names(), "|")), f.colour_map,
+           [](Text text) { return draw::colour_map(text) ? std::optional(text) : std::nullopt; });
     text("--title", f.title, help("what stands above it"), "TEXT");
     text("--unit", f.unit, help("of the values, at the colour bar"), "TEXT");
     flag("--no-bar", f.bar, help("no colour bar"), false);
@@ -81,20 +78,15 @@ void Options::view(FigureOptions& f, Text what) const {
     const auto help = [&](const char* text) { return with_heading(what, text); };
     integer("--samples", f.samples, 1, max_samples, help("of each pixel, across and up; 1: no smooth edges"));
     size(f.size);
+    const auto aim = [&camera = f.camera](const std::optional<std::pair<double, double>>& angles) {
+        if (angles) std::tie(camera.azimuth, camera.elevation) = *angles;
+        return angles.has_value();
+    };
     auto* const view = taken("--view", "NAME", help("where the camera stands: iso, or on the side +x, -x, ..., -z"),
-                             "iso, +x, -x, +y, -y, +z or -z", [&f](Text text) {
-                                 const auto angles = angles_of(text);
-                                 if (angles) std::tie(f.camera.azimuth, f.camera.elevation) = *angles;
-                                 return angles.has_value();
-                             });
+                             "iso, +x, -x, +y, -y, +z or -z", [aim](Text text) { return aim(angles_of(text)); });
     taken("--camera", "AZIMUTH,ELEVATION",
           help("the same in degrees: from the x axis towards y, and above the xy plane; default: 30,25"),
-          "AZIMUTH,ELEVATION, finite numbers of degrees",
-          [&f](Text text) {
-              const auto angles = ends_of(text);
-              if (angles) std::tie(f.camera.azimuth, f.camera.elevation) = *angles;
-              return angles.has_value();
-          })
+          "AZIMUTH,ELEVATION, finite numbers of degrees", [aim](Text text) { return aim(ends_of(text)); })
         ->excludes(view);
     parsed("--zoom", "FACTOR", help("above 1: nearer; default: 1"), "a number above 0", f.camera.zoom, positive);
     flag("--parallel", f.camera.parallel, help("no perspective"));

@@ -29,9 +29,8 @@ int run_gaps(GapsArguments& a) {
     for (base::NamedFile& file : library_files(a.kernels)) inputs.push_back(std::move(file));
     a.reports.check(inputs);
     a.job.options.kernels = chosen_kernels(a.kernels).value();
-    for (const ClaimRule rule : all_claim_rules) {
-        if (std::find(a.rules.begin(), a.rules.end(), name(rule)) != a.rules.end()) a.job.options.rules.push_back(rule);
-    }
+    std::ranges::copy_if(all_claim_rules, std::back_inserter(a.job.options.rules),
+                         [&](ClaimRule rule) { return std::ranges::count(a.rules, name(rule)) != 0; });
     return a.reports.end(gaps_file(a.job), [&](const GapsReport& report) {
         const std::string failures = broken_limits(report, a.limits);
         return Told{.files = {{"--json", [&] { return gaps_json(report); }}},

@@ -88,8 +88,7 @@ int run(int argc, char** argv) {
         R"(Exit codes: 0 success; 1 a mesh is not certified, results are wrong, a rule is broken, a figure is worse than
 in the baseline, a mutant is not caught, or a witness is not reproduced; 2 usage or input error.
 Tables go to stdout, everything else to stderr. `barycert help SUBCOMMAND` explains each.)"));
-    const auto named_first = [&](const CLI::App* sub) { return sub->get_name() == first; };
-    if (!first.empty() && first.front() != '-' && app.get_subcommands(named_first).empty())
+    if (!first.empty() && first.front() != '-' && std::ranges::count(command_names(app), first) == 0)
         return fail(file_error({}, "no such subcommand", {}, '"' + std::string(first) + '"',
                                base::did_you_mean(first, command_names(app), "`barycert --help` lists them")));
     try {

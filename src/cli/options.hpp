@@ -55,6 +55,12 @@ inline std::optional<std::pair<double, double>> ends_of(std::string_view text) {
     return std::pair((*ends)[0], (*ends)[1]);
 }
 
+/// A:B, two points of `least` to three coordinates each.
+inline std::optional<std::vector<std::vector<double>>> segment_of(std::string_view text, std::size_t least) {
+    const auto ends = numbers(':', numbers(',', finite, least, 3), 2, 2)(text);
+    return ends && (*ends)[0].size() == (*ends)[1].size() ? ends : std::nullopt;
+}
+
 inline constexpr const char* mesh_help =
     "A mesh: TetGen's or Triangle's .node/.ele, Gmsh's .msh, Medit's .mesh .meshb, VTK's .vtu .vtk .vtp .pvtu .vtm "
     ".pvd .vtu.series .vtp.series; others by way of meshio; any packed as .gz";
@@ -146,8 +152,7 @@ public:
     CLI::Option* choice(Text name, Value& value, const std::vector<std::pair<std::string, Value>>& choices,
                         Text help) const {
         std::vector<std::string> words;
-        words.reserve(choices.size());
-        for (const auto& choice : choices) words.push_back(choice.first);
+        std::ranges::transform(choices, std::back_inserter(words), &std::pair<std::string, Value>::first);
         const auto set = [&value, choices](const std::string& word) {
             value = std::ranges::find(choices, word, &std::pair<std::string, Value>::first)->second;
         };

@@ -142,7 +142,7 @@ void add_choice(const Options& o, SceneChoice& show) {
 
 void add_mesh(const Options& render) {
     const auto& [o, a] = render.command(
-        "mesh", "A mesh in the colours of a field: its boundary, cut open, sections, iso-surfaces, arrows",
+        "mesh", "A mesh in the colours of a field: its boundary, cut open, sections, iso-surfaces, arrows, points",
         "Triangles in the plane are drawn from above, on axes. Grey: no finite value. Second-order cells are drawn "
         "with\n"
         "straight sides. A pixel has 4 x 4 samples, each of which is drawn by exactly one of triangles that meet "
@@ -160,6 +160,7 @@ void add_mesh(const Options& render) {
     auto* const points =
         o.text("--points", job.points,
                "Discs at the points of a table, in the colours of the field there; grey: outside", "FILE");
+    o.text("--columns", job.columns, "Those of their coordinates, by name or by number from 1", "A,B,C")->needs(points);
     o.number("--point-size", job.show.point_size, 0, "Pixels across; default: 6", "PIXELS")->needs(points);
     o.figure(job.figure, "");
     o.view(job.figure, "");

@@ -1,13 +1,13 @@
 // barycert render iso, slice: where a field has a value, in a mesh or on one segment; a plane through a mesh.
 
-#include "barycert/io/formats.hpp"
 #include "reports.hpp"
 
 namespace barycert::cli {
 namespace {
 
 struct ContourArguments : Arguments<ContourJob> {
-    std::vector<double> ends, values;  ///< of --segment, end after end, and --values
+    std::vector<std::vector<double>> ends;  ///< of --segment
+    std::vector<double> values;             ///< --values
 };
 
 void add_contour_options(const Options& o, ContourArguments& a) {
@@ -32,13 +32,7 @@ int run_contour(ContourArguments& a) {
 void add_segment(const Options& o, ContourArguments& a) {
     o.parsed("--segment", "A:B", "Instead of a mesh: the ends of one segment; with --values",
              "XA,YA,ZA:XB,YB,ZB, finite numbers, as many at both ends (one to three)", a.ends,
-             [](std::string_view text) -> std::optional<std::vector<double>> {
-                 const auto ends = numbers(':', numbers(',', finite, 1, 3), 2, 2)(text);
-                 if (!ends || (*ends)[0].size() != (*ends)[1].size()) return std::nullopt;
-                 std::vector<double> both = (*ends)[0];
-                 both.insert(both.end(), (*ends)[1].begin(), (*ends)[1].end());
-                 return both;
-             });
+             [](Text text) { return segment_of(text, 1); });
     o.parsed("--values", "FA,FB", "The values at the ends of the segment", "two finite numbers, FA,FB", a.values,
              numbers(',', finite, 2, 2));
 }
@@ -51,11 +45,8 @@ int on_segment(const ContourArguments& a) {
     if (!a.job.mesh.empty()) return fail({.what = "--segment cannot be combined with a mesh", .found = a.job.mesh});
     const std::string of_mesh = given_option(*a.app, {"--segment", "--values", "--value"}, true);
     if (!of_mesh.empty()) return fail({.what = "--segment cannot be combined with " + of_mesh});
-    const std::size_t d = a.ends.size() / 2;
-    const std::span<const double> ends(a.ends);
-    std::vector<double> point(d);
-    const Parameter t =
-        point_of_value(ends.first(d), ends.subspan(d), a.values[0], a.values[1], *a.job.value, point).value();
+    std::vector<double> point(a.ends[0].size());
+    const Parameter t = point_of_value(a.ends[0], a.ends[1], a.values[0], a.values[1], *a.job.value, point).value();
     std::string text;
     if (t.undetermined) {
         const bool all = a.values[0] == *a.job.value;

@@ -5,10 +5,8 @@
 namespace barycert::cli {
 namespace {
 
-struct TableArguments {
+struct TableArguments : Arguments<DriftOptions> {  // of texels count and seed alone
     KernelChoice kernels;
-    std::uint64_t count = 0, seed = 1;
-    Reports reports;
 };
 
 constexpr const char* json_figures = "Write the figures as JSON; - is stdout and suppresses the table";
@@ -21,8 +19,8 @@ int run_drift(TableArguments& a) {
     if (a.kernels.names.empty() && a.kernels.libraries.empty())
         a.kernels.names = {"triangle.scanline-increments.float32", "triangle.scanline-increments", "triangle.bilinear",
                            "triangle.signed-area", "triangle.exact"};
-    const DriftOptions options{.kernels = chosen_kernels(a.kernels).value(), .count = a.count, .seed = a.seed};
-    return a.reports.end(measure_drift(options), [](const DriftReport& report) {
+    a.job.kernels = chosen_kernels(a.kernels).value();
+    return a.reports.end(measure_drift(a.job), [](const DriftReport& report) {
         return Told{
             .files = {{"--json", [&] { return drift_json(report); }}, {"--output", [&] { return drift_plot(report); }}},
             .text = [&](bool colour) { return drift_text(report, {.colour = colour}); }};
@@ -30,14 +28,14 @@ int run_drift(TableArguments& a) {
 }
 
 int run_texels(TableArguments& a) {
-    const std::vector<TexelResult> results = audit_texels(texel_rules(), a.count, a.seed);
+    const std::vector<TexelResult> results = audit_texels(texel_rules(), a.job.count, a.job.seed);
     return a.reports.write({.files = {{"--json", [&] { return texels_json(results); }}},
                             .text = [&](bool colour) { return texels_text(results, {.colour = colour}); }});
 }
 
 void add_count_and_seed(const Options& o, TableArguments& a, const char* what) {
-    add_count(o, a.count, 32, what);
-    add_seed(o, a.seed, "The same seed gives the same cases on every machine");
+    add_count(o, a.job.count, 32, what);
+    add_seed(o, a.job.seed, "The same seed gives the same cases on every machine");
 }
 
 }  // namespace
@@ -46,7 +44,6 @@ void add_render_tables(const Options& render) {
     const auto& [drift, a] =
         render.command("drift", "Measure how far values that are stepped from pixel to pixel drift from the exact ones",
                        done_or_error, run_drift);
-    a.count = 10000;
     a.reports.file(drift, "--output", "Plot the errors over the size of the triangle, as SVG; - is stdout");
     a.reports.file(drift, "--json", json_figures);
     drift.text("--kernel", a.kernels.names,
@@ -61,7 +58,7 @@ void add_render_tables(const Options& render) {
     const auto& [texels, t] = render.command(
         "texels", "Count how often rules for the texel of a texture coordinate are wrong or leave the texture",
         done_or_error, run_texels);
-    t.count = 100000;
+    t.job.count = 100000;
     t.reports.file(texels, "--json", json_figures);
     add_count_and_seed(texels, t, "Coordinates");
 }

@@ -101,8 +101,8 @@ error.)",
            "NAMES|all");
     auto* const line = o.taken("--line", "A:B", "Instead of --points: --count points from A to B",
                                "XA,YA,ZA:XB,YB,ZB, finite numbers", [&job](Text text) {
-                                   const auto ends = numbers(':', numbers(',', finite, 2, 3), 2, 2)(text);
-                                   if (!ends || (*ends)[0].size() != (*ends)[1].size()) return false;
+                                   const auto ends = segment_of(text, 2);
+                                   if (!ends) return false;
                                    if (!job.line) job.line.emplace();
                                    job.line->from = (*ends)[0];
                                    job.line->to = (*ends)[1];

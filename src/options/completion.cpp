@@ -65,14 +65,11 @@ std::string zsh_value(const OptionEntry& option) {
 std::string specification(const OptionEntry& option) {
     if (option.operand) return ' ' + in_quotes((option.repeats ? "*" : "") + zsh_value(option));
     const std::string text = '[' + escaped(summary(option.text), "[]\\:") + ']';
+    const std::string value = option.type.empty() ? "" : (option.may_be_bare ? ":" : "") + zsh_value(option);
     std::string all;
     for (const std::string& name : option.names) {
-        std::string one = option.repeats ? "*" : "";
-        one += name;
-        if (!option.type.empty() && name.starts_with("--")) one += '=';
-        one += text;
-        if (!option.type.empty()) one += (option.may_be_bare ? ":" : "") + zsh_value(option);
-        all += ' ' + in_quotes(one);
+        const bool equals = !option.type.empty() && name.starts_with("--");
+        all += ' ' + in_quotes((option.repeats ? "*" : "") + name + (equals ? "=" : "") + text + value);
     }
     return all;
 }
@@ -83,7 +80,7 @@ std::string function_of(const CommandEntry& command) {
     for (const OptionEntry& option : command.options) {
         if (last || !option.operand) options += " \\\n   " + specification(option);
         // Operands of a command that has commands below it: where the first word is none of them.
-        if (option.operand && option.files) operands = "_files";
+        if (option.operand && option.files) operands = "; _files";
     }
     if (last) return text + "  _arguments -s -S" + options + "\n}\n";
     for (const CommandEntry& below : command.commands) {
@@ -93,8 +90,7 @@ std::string function_of(const CommandEntry& command) {
     text += "  local curcontext=$curcontext state line\n  local -a commands\n  typeset -A opt_args\n";
     text += "  commands=(" + names + "\n  )\n";
     text += "  _arguments -C -S" + options + " \\\n    ': :->command' \\\n    '*:: :->rest'\n";
-    text +=
-        "  case $state in\n  command) _describe command commands" + (operands.empty() ? "" : "; " + operands) + " ;;\n";
+    text += "  case $state in\n  command) _describe command commands" + operands + " ;;\n";
     text += "  rest)\n    case $words[1] in\n" + cases;
     return text + "    esac ;;\n  esac\n}\n";
 }

@@ -3,24 +3,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
+
+#include "barycert/base/text.hpp"
 
 namespace barycert::cli {
 namespace {
 
 /// As text of roff: nothing in it is a request or an escape.
 std::string roff(std::string_view text) {
-    using Escape = std::pair<char, std::string_view>;
-    constexpr std::array<Escape, 6> escapes{
-        {{'\\', "\\e"}, {'-', "\\-"}, {'\'', "\\(aq"}, {'`', "\\(ga"}, {'^', "\\(ha"}, {'~', "\\(ti"}}};
-    std::string out;
-    for (const char& c : text) {
-        if (c == '.' && (out.empty() || out.back() == '\n')) out += "\\&";
-        const auto escape = std::find_if(escapes.begin(), escapes.end(), [&](const Escape& e) { return e.first == c; });
-        out += escape == escapes.end() ? std::string_view(&c, 1) : escape->second;
-    }
-    return out;
+    std::string out(text);
+    for (const auto& [plain, escape] :
+         {std::pair("\\", "\\e"), {"-", "\\-"}, {"'", "\\(aq"}, {"`", "\\(ga"}, {"^", "\\(ha"}, {"~", "\\(ti"}})
+        base::replace_all(out, plain, escape);
+    base::replace_all(out, "\n.", "\n\\&.");
+    return out.starts_with('.') ? "\\&" + out : out;
 }
 
 std::string bold(std::string_view text) {
@@ -69,12 +66,8 @@ std::string synopsis(const CommandEntry& command) {
 
 std::string option_text(const OptionEntry& option) {
     std::string text = ".TP\n";
-    if (option.operand) {
-        text += italic(option.name());
-    } else {
-        for (std::size_t i = 0; i < option.names.size(); ++i) text += (i == 0 ? "" : ", ") + bold(option.names[i]);
-        if (!option.type.empty()) text += ' ' + man_value(option);
-    }
+    text += option.operand ? italic(option.name()) : base::joined(option.names, ", ", bold);
+    if (!option.operand && !option.type.empty()) text += ' ' + man_value(option);
     text += '\n' + roff(option.text);
     std::string more;
     if (option.required && !option.operand) more += " Required.";
@@ -84,10 +77,9 @@ std::string option_text(const OptionEntry& option) {
 }
 
 std::string entries(const CommandEntry& command, bool operands, const char* title) {
-    std::string text;
-    for (const OptionEntry& option : command.options) {
-        if (option.operand == operands) text += option_text(option);
-    }
+    const std::string text = base::joined(command.options, "", [&](const OptionEntry& option) {
+        return option.operand == operands ? option_text(option) : "";
+    });
     return text.empty() ? text : std::string(".SH ") + title + '\n' + text;
 }
 
@@ -111,13 +103,12 @@ std::string notes_text(std::string_view text) {
 std::pair<std::string, std::string> split_notes(const std::string& notes) {
     const std::size_t begin = notes.find("Exit codes:");
     if (begin == std::string::npos) return {notes, ""};
-    std::size_t end = notes.find('.', begin);
-    end = end == std::string::npos ? notes.size() : end + 1;
-    std::string codes = notes.substr(begin + 12, end - begin - 12), rest = notes.substr(0, begin);
+    const std::size_t end = std::min(notes.find('.', begin), notes.size() - 1) + 1;
+    std::string codes = notes.substr(begin + 12, end - begin - 12);
     std::replace(codes.begin(), codes.end(), '\n', ' ');
-    while (end < notes.size() && (notes[end] == '\n' || notes[end] == ' ')) ++end;
-    rest += notes.substr(end);
-    while (rest.ends_with('\n') || rest.ends_with(' ')) rest.pop_back();
+    std::string rest =
+        notes.substr(0, begin) + notes.substr(std::min(notes.find_first_not_of("\n ", end), notes.size()));
+    rest.erase(rest.find_last_not_of("\n ") + 1);
     return {rest, codes};
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <sstream>
 
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"
@@ -61,12 +62,11 @@ std::string one_value(const CLI::App& app, std::span<const char* const> words, c
     return "";
 }
 
-void add_words(OptionEntry& entry, std::string_view type, const Vocabulary& vocabulary) {
-    for (;;) {
-        const std::size_t bar = type.find('|');
-        std::string_view part = type.substr(0, bar);
-        const std::size_t bracket = part.find('[');
-        std::string_view word = part.substr(0, bracket);
+void add_words(OptionEntry& entry, const Vocabulary& vocabulary) {
+    std::istringstream parts(entry.type);
+    for (std::string text; std::getline(parts, text, '|');) {
+        const std::string_view part = text;
+        std::string_view word = part.substr(0, part.find('['));
         if (word.empty()) word = part.substr(1, part.find(']') - 1);  // [RATIO]
         const int first = static_cast<unsigned char>(word.front());
         if (std::islower(first) != 0 || std::isdigit(first) != 0) {
@@ -76,8 +76,6 @@ void add_words(OptionEntry& entry, std::string_view type, const Vocabulary& voca
             entry.words.insert(entry.words.end(), known->second.begin(), known->second.end());
         }
         entry.files = entry.files || word == "NAME=FILE" || is_type_of_files(word);
-        if (bar == std::string_view::npos) return;
-        type.remove_prefix(bar + 1);
     }
 }
 
@@ -96,7 +94,7 @@ OptionEntry entry_of(const CLI::Option& option, const Vocabulary& vocabulary) {
     entry.preset = option.get_default_str();
     // The types that the parser makes up for operands say less than their names.
     if (entry.operand && entry.type == "TEXT") entry.type = entry.name();
-    if (!entry.type.empty()) add_words(entry, entry.type, vocabulary);
+    add_words(entry, vocabulary);
     return entry;
 }
 

@@ -86,7 +86,7 @@ void take(const Options& given, FigureOptions& o) {
     given("bar", o.bar);
 }
 
-void plot(const MeshObject& object, const std::string& field, const py::dict& options, const std::string& path) {
+void plot(MeshObject& object, const std::string& field, const py::dict& options, const std::string& path) {
     SceneChoice show;
     FigureOptions figure;
     const Options given(options);
@@ -94,6 +94,7 @@ void plot(const MeshObject& object, const std::string& field, const py::dict& op
     take(given, figure);
     given.finish();
     if (show.iso_field.empty()) show.iso_field = field;
+    show.cells = object.geometry()->options;
     const py::gil_scoped_release unlocked;
     write_mesh_figure(path, object.whole(), show, field, figure).value();
 }

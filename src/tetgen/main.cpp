@@ -80,9 +80,12 @@ bool find_reason(const Options& options, const Plc& plc, Error& error) {
     const auto defect = std::ranges::find_if(report.defects, &Defect::breaks);
     if (defect == report.defects.end()) return false;
     const DefectText& text = defect_text(defect->kind);
-    const std::string count = text.one.empty() ? base::counted(defect->count, text.text, text.text)
-                                               : base::counted(defect->count, text.one, text.more);
-    error.what = fmt::format("{}{} ({})", defect->at_least ? "at least " : "", count, error.what);
+    const bool one = defect->count == 1;
+    error.what = fmt::format("{}{} {} ({})", defect->at_least ? "at least " : "", defect->count,
+                             text.one.empty() ? text.text
+                             : one            ? text.one
+                                              : text.more,
+                             error.what);
     error.remedy = fmt::format("`barycert check {}` says where", base::shell_word(options.input));
     return true;
 }

@@ -227,7 +227,7 @@ private:
             if (index_->locator) {
                 const Result<Sampler> sampler = Sampler::build(*index_->locator, arrays_->choices());
                 if (!sampler) return sampler.error();
-                if (Status done = sample_data_set(*sampler, *index_, *input_, {}, 0, *arrays_); !done) return done;
+                if (Status done = sample_data_set(*sampler, *index_, *input_, 0, *arrays_); !done) return done;
                 vtkNew<vtkDoubleArray> coordinates;
                 coordinates->SetNumberOfComponents(3);
                 coordinates->SetArray(others.data(), static_cast<vtkIdType>(others.size()), 1);
@@ -236,7 +236,7 @@ private:
                 vtkNew<vtkPolyData> data;
                 data->SetPoints(points);
                 arrays_->start_at(static_cast<vtkIdType>(count_));
-                if (Status done = sample_data_set(*sampler, *index_, *data, {}, 0, *arrays_); !done) return done;
+                if (Status done = sample_data_set(*sampler, *index_, *data, 0, *arrays_); !done) return done;
             }
             // Arrays of a rank without cells are not those of the others.
             for (const ArrayKind& kind : kinds_) {

@@ -60,16 +60,10 @@ bool same_cells(const ExactIndex& a, const ExactIndex& b) {
 void remember(vtkDataSet& data, const pieces::Shape& shape, vtkMTimeType time,
               std::shared_ptr<const ExactIndex> index) {
     const std::lock_guard lock(cache().access);
-    bool observed = false;
-    for (Entry& entry : cache().entries) {
-        if (entry.data != &data) continue;
-        observed = true;
-        if (!(entry.shape == shape)) continue;
-        entry.time = time;
-        entry.index = std::move(index);
-        return;
-    }
-    cache().entries.push_back({&data, shape, time, std::move(index)});
+    std::list<Entry>& entries = cache().entries;
+    const bool observed = std::ranges::find(entries, &data, &Entry::data) != entries.end();
+    entries.remove_if([&](const Entry& entry) { return entry.data == &data && entry.shape == shape; });
+    entries.push_back({&data, shape, time, std::move(index)});
     if (observed) return;
     vtkNew<vtkCallbackCommand> command;
     command->SetClientData(&data);
@@ -179,7 +173,7 @@ void ExactIndex::weights_of_nodes(Mesh::Index cell, const double* x, bool inside
         its.weights.assign(all.begin(), all.end());
     } else {
         const Mesh::Index own = inside ? cell : -1;
-        const TableView row{.points = {point.data(), mesh.corners() - 1}, .cells = {&own, 1}};
+        const TableView row{.points = {point.data(), static_cast<std::size_t>(mesh.dimension)}, .cells = {&own, 1}};
         if (Result<NodeWeights> all = node_weights(*locator, row, {.kind = Outside::nearest})) its = std::move(*all);
     }
     // Of a map that cannot be inverted there, none.

@@ -30,9 +30,7 @@ T once_rounded(double value, Side&& side) {
     } else if constexpr (std::is_same_v<T, float>) {
         const auto near = static_cast<float>(value);
         if (static_cast<double>(near) == value || !std::isfinite(near)) return near;
-        const float other =
-            std::nextafter(near, static_cast<double>(near) < value ? std::numeric_limits<float>::infinity()
-                                                                   : -std::numeric_limits<float>::infinity());
+        const float other = std::nextafter(near, static_cast<double>(near) < value ? HUGE_VALF : -HUGE_VALF);
         // Both have 24 bits: their mean is a double.
         if (!std::isfinite(other) || (static_cast<double>(near) + static_cast<double>(other)) / 2 != value) return near;
         const Sign rest = side(value);
@@ -346,8 +344,10 @@ void ProbeArrays::write_cells() const {
     for (const Copied& array : of_cells_) array.to->InsertTuples(points, cells, array.from);
 }
 
-Status sample_data_set(const Sampler& sampler, const ExactIndex& index, vtkDataSet& input, const SampleOptions& options,
-                       double tolerance, ProbeArrays& arrays) {
+Status sample_data_set(const Sampler& sampler, const ExactIndex& index, vtkDataSet& input, double tolerance,
+                       ProbeArrays& arrays) {
+    SampleOptions options;
+    if (tolerance > 0) options.outside = {.kind = Outside::nearest, .limit = tolerance};
     if (const std::optional<Grid> grid = probe_grid(index, input)) return sample_grid(sampler, *grid, options, arrays);
     return sample_points(index, input, tolerance, arrays, [&](auto points, std::size_t first, Table& rows) {
         return sampler.sample(points, options, rows, first);

@@ -102,10 +102,10 @@ private:
     std::size_t columns_ = 0;
 };
 
-/// Samples the arrays' choices at all points of `input`, and writes what is found. Memory for rows does not grow with
-/// the number of points.
-Status sample_data_set(const Sampler& sampler, const ExactIndex& index, vtkDataSet& input, const SampleOptions& options,
-                       double tolerance, ProbeArrays& arrays);
+/// Samples the arrays' choices at all points of `input`, outside at the nearest point that is within the tolerance, and
+/// writes what is found. Memory for rows does not grow with the number of points.
+Status sample_data_set(const Sampler& sampler, const ExactIndex& index, vtkDataSet& input, double tolerance,
+                       ProbeArrays& arrays);
 /// The same on a surface in space: at the nearest point of it, if that is within the tolerance.
 Status sample_surface(const ExactIndex& index, vtkDataSet& input, double tolerance, ProbeArrays& arrays);
 

@@ -59,9 +59,8 @@ struct vtkBarycertLocator::Internals {
     }
 
     // The cell that the caller gave, or one made, with what the data set has of that id.
-    vtkGenericCell* fetched(vtkIdType id, vtkGenericCell* cell, vtkSmartPointer<vtkGenericCell>& made) {
-        if (cell == nullptr) made = vtkSmartPointer<vtkGenericCell>::New();
-        if (cell == nullptr) cell = made;
+    vtkSmartPointer<vtkGenericCell> fetched(vtkIdType id, vtkSmartPointer<vtkGenericCell> cell) {
+        if (cell == nullptr) cell = vtkSmartPointer<vtkGenericCell>::New();
         self.DataSet->GetCell(id, cell);
         return cell;
     }
@@ -219,14 +218,13 @@ vtkIdType vtkBarycertLocator::FindCell(double x[3], double tol2, vtkGenericCell*
     }
     if (found.cell < 0) return -1;
     const vtkIdType id = index->id(found.cell);
-    vtkSmartPointer<vtkGenericCell> made;
-    cell = internals_->fetched(id, cell, made);
+    const vtkSmartPointer<vtkGenericCell> its = internals_->fetched(id, cell);
     if (index->cells_are_cut || !index->straight()) {
-        set_place(*index, found, x, *cell, pcoords, subId, weights);
+        set_place(*index, found, x, *its, pcoords, subId, weights);
         return id;
     }
     std::array<double, 3> point{};
-    if (found.inside && index->project(x, point.data())) found.weights = index->weights(found.cell, point.data(), cell);
+    if (found.inside && index->project(x, point.data())) found.weights = index->weights(found.cell, point.data(), its);
     std::copy_n(found.weights.begin(), index->mesh.corners(), weights);
     // As vtkTetra and vtkTriangle have them: all weights but the first.
     for (std::size_t i = 0; i < 3; ++i) pcoords[i] = i + 1 < index->mesh.corners() ? weights[i + 1] : 0;
@@ -274,11 +272,10 @@ int vtkBarycertLocator::IntersectWithLine(const double p1[3], const double p2[3]
         subId = 0;
         cellId = index->id(hits.front().triangle);
         std::copy_n(point_at(p1, p2, t).begin(), 3, x);
-        vtkSmartPointer<vtkGenericCell> made;
-        cell = internals_->fetched(cellId, cell, made);
-        std::vector<double> weights(static_cast<std::size_t>(cell->GetNumberOfPoints()));
+        const vtkSmartPointer<vtkGenericCell> its = internals_->fetched(cellId, cell);
+        std::vector<double> weights(static_cast<std::size_t>(its->GetNumberOfPoints()));
         const pieces::Closest at{.cell = hits.front().triangle, .inside = true, .point = {x[0], x[1], x[2]}};
-        set_place(*index, at, x, *cell, pcoords, subId, weights.data());
+        set_place(*index, at, x, *its, pcoords, subId, weights.data());
         return 1;
     }
     vtkStaticCellLocator* const other = internals_->other();
@@ -354,10 +351,8 @@ static bool meets(vtkDataSet& data, vtkIdType cell, const double* box) {
 void vtkBarycertLocator::FindCellsWithinBounds(double* bbox, vtkIdList* cells) {
     const ExactEnvironment environment;
     cells->Reset();
-    vtkStaticCellLocator* const other = internals_->other();
-    if (other == nullptr) return;
     vtkNew<vtkIdList> candidates;  // all cells of the buckets that the box meets
-    other->FindCellsWithinBounds(bbox, candidates);
+    if (vtkStaticCellLocator* const other = internals_->other()) other->FindCellsWithinBounds(bbox, candidates);
     for (vtkIdType i = 0; i < candidates->GetNumberOfIds(); ++i)
         if (meets(*DataSet, candidates->GetId(i), bbox)) cells->InsertNextId(candidates->GetId(i));
 }

@@ -111,16 +111,12 @@ bool vtkBarycertProbe::Sample(vtkDataSet* input, vtkDataSet* source, vtkDataSet*
     for (const Note& note : index.notes) vtkWarningMacro("" << message(note));
     if (index.mesh.cells.empty() || count == 0) return true;
 
-    SampleOptions options;
-    if (tolerance > 0) {
-        options.outside = {.kind = Outside::nearest, .limit = tolerance};
-        arrays.number_cells();
-    }
+    if (tolerance > 0) arrays.number_cells();
     const Status done = [&]() -> Status {
         if (index.on_surface) return in_vtk::sample_surface(index, *input, tolerance, arrays);
         const Result<Sampler> sampler = Sampler::build(*index.locator, arrays.choices());
         if (!sampler) return sampler.error();
-        return in_vtk::sample_data_set(*sampler, index, *input, options, tolerance, arrays);
+        return in_vtk::sample_data_set(*sampler, index, *input, tolerance, arrays);
     }();
     if (!done) {
         vtkErrorMacro("" << done.error().message());

@@ -126,6 +126,19 @@ TEST_F(RenderMesh, ArrowsOfAField) {
     expect_error(plus(bare, {"--arrows", "w"}), "one of 3 components, of which there is: v");
 }
 
+TEST_F(RenderMesh, PointsOfATable) {
+    const std::string points = scratch_.put("p.csv", "t,a,b,c\n0,0.1,0.5,0.5\n1,0.9,0.5,0.5\n2,3,0.5,0.5\n");
+    const Words bare{"--axes", "none", "--no-bar", "--no-surface", "--field", "attribute0", "--points", points};
+    expect_error(line(bare), "columns");
+    const Ended r = run(line(plus(bare, {"--columns", "a,b,c", "--point-size", "20"})));
+    EXPECT_EQ(r.code, 0) << r.err;
+    EXPECT_TRUE(contains(r.out, "values of 1 of 3 points, which lie in no cell: grey")) << r.out;
+    EXPECT_NEAR(static_cast<double>(ink(read_png(png_).value())), 3 * 306, 80);  // one is cut off a little
+    const Ended out = run(line(plus(bare, {"--columns", "2,3,4", "--threshold", "attribute0=1,2"})));
+    EXPECT_TRUE(contains(out.out, "values of 2 of 3 points")) << out.out << out.err;
+    expect_error(line({"--columns", "1,2,3"}), "--points");
+}
+
 TEST(SamplePlot, AlongALineAndOverTime) {
     const Scratch scratch;
     const std::string svg = scratch.path("p.svg"), csv = scratch.path("p.csv");

@@ -246,9 +246,8 @@ TEST(Verify, HistogramsAreFilesBySuffix) {
         EXPECT_EQ(r.err, "");
         return name == "-" ? r.out : read_file(path);
     };
-    for (const std::string& command :
-         {"check " + mesh, "verify " + mesh + " --results " + results +
-                               " --columns 1,2,3 --value attribute0=column4 --fields attribute0"}) {
+    const std::string columns = " --columns 1,2,3 --value attribute0=column4 --fields attribute0";
+    for (const std::string& command : {"check " + mesh, "verify " + mesh + " --results " + results + columns}) {
         EXPECT_TRUE(drawn("h.png", command).starts_with("\x89PNG")) << command;
         EXPECT_TRUE(drawn("h.pdf", command).starts_with("%PDF-")) << command;
         EXPECT_EQ(drawn("h.svg", command), drawn("-", command));
@@ -258,11 +257,15 @@ TEST(Verify, HistogramsAreFilesBySuffix) {
         EXPECT_TRUE(contains(r.err, ".png, .svg or .pdf")) << r.err;
     }
     EXPECT_TRUE(contains(drawn("-", "check " + mesh), "smallest dihedral angle"));
+    const std::string errors = drawn("-", "verify " + mesh + " --results " + results + columns);
+    EXPECT_TRUE(contains(errors, "error of attribute0, ulps, logarithmic")) << errors;
+    EXPECT_TRUE(contains(errors, ": 1 row</title>") || contains(errors, ": 2 rows</title>")) << errors;
+    EXPECT_TRUE(contains(errors, "<rect fill=\"#c8102e\"")) << "a wrong value: " << errors;
     const std::string surface = scratch.path("s.off");
     ASSERT_EQ(run_shell("printf 'OFF\\n3 1 0\\n0 0 0\\n1 0 0\\n0 1 0\\n3 0 1 2\\n' > " + surface).code, 0);
     const Ended r = run_shell("barycert check " + surface + " --quiet --plot " + scratch.path("h.svg"));
     EXPECT_EQ(r.code, 2);
-    EXPECT_TRUE(contains(r.err, "surfaces")) << r.err;
+    EXPECT_TRUE(contains(r.err, "--plot is for meshes")) << r.err;
 }
 
 TEST(Verify, BadInput) {

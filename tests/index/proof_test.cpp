@@ -16,6 +16,7 @@
 #include "check/meshes.hpp"
 #include "check/random_complexes.hpp"
 #include "limits.hpp"
+#include "mesh/shaped_mesh.hpp"
 
 namespace barycert::testing {
 namespace {
@@ -188,6 +189,51 @@ bool same_bytes(const index::Buffer<T>& a, const index::Buffer<T>& b) {
     return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.bytes()) == 0;
 }
 
+/// The start of each bin has its middle in the smallest block of bins around it that has any middle.
+void expect_starts(const Mesh& mesh) {
+    const Locator locator = Locator::build(mesh).value();
+    const index::CellIndex& index = locate::LocatorData::of(locator).index;
+    const std::size_t bins = index.bins.count(), corners = index.corners();
+    EXPECT_LE(2 * bins, 4 * mesh.cell_count());
+    EXPECT_GT(2 * bins, mesh.cell_count());
+    std::vector<std::uint32_t> own;
+    std::vector<std::size_t> middles(2 * bins, 0);  // of blocks: 1 is all, 2 and 3 are its halves
+    for (std::size_t place = 0; place < mesh.cell_count(); ++place) {
+        std::array<double, 3> middle{};
+        for (std::size_t i = 0; i < corners; ++i)
+            for (std::size_t k = 0; k < index.dimension(); ++k)
+                middle[k] += index.corner_points(static_cast<Place>(place))[i][k] / static_cast<double>(corners);
+        own.push_back(index.bins.of(middle.data()));
+        for (std::size_t block = bins + own.back(); block != 0; block /= 2) ++middles[block];
+    }
+    std::size_t wrong = 0, empty = 0;
+    ASSERT_EQ(index.start.size(), bins);
+    for (std::size_t bin = 0; bin < bins; ++bin) {
+        const Place start = index.start[bin];
+        ASSERT_TRUE(start >= 0 && static_cast<std::size_t>(start) < own.size());
+        std::size_t block = bins + bin, of_start = bins + own[static_cast<std::size_t>(start)];
+        empty += middles[block] == 0 ? 1U : 0U;
+        for (; middles[block] == 0; block /= 2) of_start /= 2;
+        wrong += block == of_start ? 0U : 1U;
+    }
+    EXPECT_GT(empty, 0U);
+    EXPECT_EQ(wrong, 0U) << "of " << bins;
+}
+
+TEST(IndexProof, WalksStartNearTheirBins) {
+    for (const char* stem : {"bracket", "plate", "torus"}) expect_starts(own_mesh(stem));
+    Mesh hexahedra;
+    hexahedra.points = box(3, {5, 4, 3}).points;
+    for (const int corner : {0, 1, 2, 3, 6, 7, 8, 9, 12, 13, 14, 30, 36, 42, 60}) {
+        std::vector<Mesh::Index> nodes;
+        for (const int step : {0, 1, 7, 6, 30, 31, 37, 36}) nodes.push_back(corner + step);
+        test::add_shape(hexahedra, 12, nodes);
+    }
+    test::cut(hexahedra);
+    ASSERT_GE(hexahedra.cell_count(), 75U);
+    expect_starts(hexahedra);
+}
+
 TEST(IndexProof, D1TheIndexHasTheSameBytesForAnyNumberOfThreads) {
     const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, 8);
     base::Random random(4);
@@ -201,7 +247,7 @@ TEST(IndexProof, D1TheIndexHasTheSameBytesForAnyNumberOfThreads) {
             EXPECT_TRUE(same_bytes(a.index.cells, b.index.cells) && same_bytes(a.index.nodes, b.index.nodes) &&
                         same_bytes(a.index.original, b.index.original))
                 << threads;
-            EXPECT_EQ(a.index.first, b.index.first);
+            EXPECT_TRUE(same_bytes(a.index.start, b.index.start));
             EXPECT_EQ(a.index.original_node, b.index.original_node);
             EXPECT_EQ(a.proved()->proof.contested, b.proved()->proof.contested);
         }

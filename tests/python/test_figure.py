@@ -71,7 +71,7 @@ def test_points_have_colours_of_values(mesh):
     shown = pixels(mesh.plot("T", points=points, point_size=8, range=(0, 1), **options)._repr_png_())
     colours = np.unique(shown.reshape(-1, 3), axis=0)
     assert len(colours) == 4, "a colour for each point, and the ground"
-    for point in ([[0.2, 0.5]], [[np.nan, 0, 0]]):
+    for point in ([[0.2, 0.5]], np.zeros((3, 2)), [[np.nan, 0, 0]]):
         with pytest.raises(barycert.Error):
             mesh.plot("T", points=point)
 

@@ -100,7 +100,18 @@ TEST(CheckHtml, SaysWhatIsWrongBeforeAllAndPraisesNothingElse) {
     EXPECT_NE(of_flat.find("no cell in a bar", shapes), std::string::npos);
 }
 
-TEST(Histogram, EveryValueIsCountedOnce) {
+TEST(CheckHtml, MeshesInThePlaneAreDrawnBesideTheirDefects) {
+    Mesh plane;
+    plane.dimension = 2;
+    plane.points = {0, 0, 2, 0, 0, 2, 1, 1, 2, 2};
+    plane.cells = {0, 1, 2, 1, 3, 4};
+    const std::string page = check_html(checked(plane), plane, "part");
+    const std::size_t map = page.find("class=\"map\"");
+    ASSERT_NE(map, std::string::npos);
+    EXPECT_NE(page.substr(map, page.find("The box of the cells", map) - map).find("<image"), std::string::npos);
+}
+
+TEST(Bins, EveryValueIsCountedOnce) {
     const std::vector<std::vector<double>> samples{
         {},
         {nan},
@@ -125,7 +136,7 @@ TEST(Histogram, EveryValueIsCountedOnce) {
     }
 }
 
-TEST(Histogram, BinsAreRoundAndWhereTheyShouldBe) {
+TEST(Bins, BinsAreRoundAndWhereTheyShouldBe) {
     const Bins given = report::bins_of({0, 1.9, 2, 71.9, 80}, {Kind::given, 0, 72, 2});
     ASSERT_EQ(given.counts.size(), 36U);
     EXPECT_EQ(given.counts[0], 2U);

@@ -79,20 +79,12 @@ using namespace audit;
 
 void MeshSource::add(std::string name, Mesh mesh, const Certificate& certificate) {
     if (mesh.cell_count() == 0) return;
-    audit::PreparedMesh p;
-    p.name = std::move(name);
-    p.mesh = std::move(mesh);
-    p.certificate = certificate;
+    PreparedMesh p{.name = std::move(name), .mesh = std::move(mesh), .certificate = certificate};
     p.neighbours = mesh::compute_neighbours(p.mesh);
     p.hull_facets = mesh::hull_facets(p.mesh, p.neighbours);
     const auto d = static_cast<std::size_t>(p.mesh.dimension);
-    p.low.fill(std::numeric_limits<double>::infinity());
-    p.high.fill(-std::numeric_limits<double>::infinity());
-    for (std::size_t i = 0; i < p.mesh.points.size(); ++i) {
-        p.low[i % d] = std::min(p.low[i % d], p.mesh.points[i]);
-        p.high[i % d] = std::max(p.high[i % d], p.mesh.points[i]);
-    }
-    meshes_.push_back(std::make_shared<const audit::PreparedMesh>(std::move(p)));
+    for (std::size_t i = 0; i < p.mesh.points.size(); ++i) p.box[i % d].add(p.mesh.points[i]);
+    meshes_.push_back(std::make_shared<const PreparedMesh>(std::move(p)));
 }
 
 bool MeshSource::supplies(Simplex s) const {

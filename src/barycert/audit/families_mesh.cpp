@@ -60,7 +60,7 @@ void step_outwards(Draw& draw, base::Random& random) {
 void point_far_away(Draw& draw, base::Random& random) {
     const double reach = std::ldexp(1, random.integer(1, 20));
     for (std::size_t axis = 0; axis < static_cast<std::size_t>(space_dimension(draw.simplex.simplex)); ++axis) {
-        const double low = draw.from->low[axis], size = draw.from->high[axis] - low;
+        const double low = draw.from->box[axis].low, size = draw.from->box[axis].high - low;
         draw.simplex.point[axis] = low + size * random.uniform(-reach, reach);
     }
 }

@@ -179,8 +179,7 @@ ClaimCounts ClaimResult::total() const {
 Result<GapsReport> find_gaps(const GapsOptions& options, const Mesh& mesh, const std::string& name, Verdict verdict) {
     const ExactEnvironment exact;
     GapsReport report;
-    static_cast<AuditRun&>(report) = {measure_environment(), options.seed, options.count,
-                                      base::threads_for(options.threads)};
+    report.environment = measure_environment();
     if (const Status ok = check_environment(report.environment); !ok) return ok.error();
     if (mesh.cell_count() == 0) return Error{.what = "the mesh has no cells", .file = name};
     const Simplex simplex = mesh.dimension == 2 ? Simplex::triangle : Simplex::tetrahedron;
@@ -190,7 +189,10 @@ Result<GapsReport> find_gaps(const GapsOptions& options, const Mesh& mesh, const
     report.dimension = mesh.dimension;
     report.verdict = verdict;
     report.curved = curved_cells(mesh);
+    report.seed = options.seed;
+    report.count = options.count;
     report.tolerance = options.tolerance;
+    report.threads = base::threads_for(options.threads);
     for (const Claimant& c : *claimants)
         report.results.push_back({c.kernel == nullptr ? "" : c.kernel->name, c.rule, {}, 0, {}});
 

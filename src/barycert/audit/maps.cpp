@@ -19,7 +19,7 @@ std::vector<Mesh::Index> owners_in(const Locator& locator, const PreparedMesh& m
     points.reserve(d * f.width * f.height);
     const auto place = [&](std::size_t axis, std::size_t i, std::size_t of) {
         const double t = (static_cast<double>(i) + 0.5) / static_cast<double>(of);
-        return (1 - t) * m.low[axis] + t * m.high[axis];
+        return (1 - t) * m.box[axis].low + t * m.box[axis].high;
     };
     for (std::size_t row = 0; row < f.height; ++row) {
         for (std::size_t column = 0; column < f.width; ++column) {
@@ -40,14 +40,13 @@ std::vector<Mesh::Index> owners_in(const Locator& locator, const PreparedMesh& m
 /// coarsely. Those near the ends are for plates.
 MeshFrame best_frame(const Locator& locator, const PreparedMesh& m, int threads) {
     if (m.mesh.dimension == 2) return MeshFrame();
-    std::array<double, 3> extent{};
-    for (std::size_t k = 0; k < 3; ++k) extent[k] = m.high[k] / 2 - m.low[k] / 2;  // halved, for it may overflow
+    const std::array<double, 3> extent{m.box[0].half(), m.box[1].half(), m.box[2].half()};  // the whole may overflow
     const double largest = std::max({extent[0], extent[1], extent[2]});
     std::vector<std::pair<double, MeshFrame>> planes;
     for (const double t : {0.5, 0.375, 0.625, 0.25, 0.75, 0.125, 0.875, 0.0625, 0.9375, 0.03125, 0.96875}) {
         for (std::size_t k = 0; k < 3; ++k) {
-            MeshFrame f{
-                static_cast<int>(k), (1 - t) * m.low[k] + t * m.high[k], {k == 0 ? 1U : 0U, k == 2 ? 1U : 2U}, 24, 24};
+            const double at = (1 - t) * m.box[k].low + t * m.box[k].high;
+            const MeshFrame f{static_cast<int>(k), at, {k == 0 ? 1U : 0U, k == 2 ? 1U : 2U}, 24, 24};
             const auto owners = owners_in(locator, m, f, threads);
             const auto inside = std::ranges::count_if(owners, [](Mesh::Index c) { return c >= 0; });
             const double sides = (extent[f.shown[0]] / largest) * (extent[f.shown[1]] / largest);
@@ -60,8 +59,7 @@ MeshFrame best_frame(const Locator& locator, const PreparedMesh& m, int threads)
 
 /// As long and as high as the mesh, but so that something is seen of thin ones.
 void set_size(MeshFrame& f, const PreparedMesh& m) {
-    const auto extent = [&](std::size_t side) { return m.high[f.shown[side]] / 2 - m.low[f.shown[side]] / 2; };
-    const double across = extent(0), up = extent(1), larger = std::max(across, up);
+    const double across = m.box[f.shown[0]].half(), up = m.box[f.shown[1]].half(), larger = std::max(across, up);
     const auto pixels = [&](double size) {
         const double n = larger > 0 ? std::round(static_cast<double>(MeshMap::longer_side) * (size / larger)) : 0;
         return std::max(static_cast<std::size_t>(n), MeshMap::shortest_side);
@@ -130,8 +128,8 @@ void fill_map(MeshMap& map, const PreparedMesh& m, const std::vector<Kernel>& ke
     const std::vector<Mesh::Index> cells(seen.lower_bound(0), seen.end());
     if (cells.empty()) throw Exception({.what = "no cell is large enough to be seen"});
     static_cast<MeshFrame&>(map) = frame;
-    map.low = {m.low[frame.shown[0]], m.low[frame.shown[1]]};
-    map.high = {m.high[frame.shown[0]], m.high[frame.shown[1]]};
+    map.low = {m.box[frame.shown[0]].low, m.box[frame.shown[1]].low};
+    map.high = {m.box[frame.shown[0]].high, m.box[frame.shown[1]].high};
     for (const Mesh::Index owner : owners)
         map.pixels.push_back(
             owner < 0 ? -1 : static_cast<std::int32_t>(std::ranges::lower_bound(cells, owner) - cells.begin()));

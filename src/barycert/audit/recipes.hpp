@@ -4,6 +4,7 @@
 
 #include "barycert/audit.hpp"
 #include "barycert/base/random.hpp"
+#include "barycert/base/range.hpp"
 #include "barycert/base/ulp.hpp"
 #include "barycert/base/vectors.hpp"
 
@@ -13,10 +14,10 @@ namespace barycert::audit {
 struct PreparedMesh {
     std::string name;
     Mesh mesh;
-    std::vector<Mesh::Index> neighbours;    ///< as compute_neighbours gives them
-    std::vector<std::int64_t> hull_facets;  ///< cell * corners + opposite corner
-    std::array<double, 3> low{}, high{};    ///< bounding box
-    Certificate certificate;                ///< what is known of the mesh
+    std::vector<Mesh::Index> neighbours = {};    ///< as compute_neighbours gives them
+    std::vector<std::int64_t> hull_facets = {};  ///< cell * corners + opposite corner
+    std::array<base::Range, 3> box = {};         ///< bounding box
+    Certificate certificate;                     ///< what is known of the mesh
 };
 
 /// A simplex drawn from a mesh, with the cell it belongs to.

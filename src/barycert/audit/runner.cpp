@@ -74,8 +74,10 @@ auto how_bad(const KernelResult& k) {
 Result<AuditReport> run_audit(const AuditOptions& options, const MeshSource& meshes) {
     const ExactEnvironment exact;
     AuditReport report;
-    static_cast<AuditRun&>(report) = {measure_environment(), options.seed, options.count,
-                                      base::threads_for(options.threads)};
+    report.environment = measure_environment();
+    report.seed = options.seed;
+    report.count = options.count;
+    report.threads = base::threads_for(options.threads);
     if (const Status ok = check_environment(report.environment); !ok) return ok.error();
     const std::vector<Part> parts = plan(options, meshes);
     if (parts.empty())

@@ -2,6 +2,7 @@
 
 #include "barycert/audit/asking.hpp"
 #include "barycert/base/decades.hpp"
+#include "barycert/base/range.hpp"
 #include "barycert/base/strict_math.hpp"
 #include "barycert/weights.hpp"
 
@@ -128,12 +129,10 @@ double upper_edge(std::size_t bin) {
 /// point is in the cell, so that its differences are no longer than the cell.
 bool in_range(const Case& c) {
     for (int axis = 0; axis < space_dimension(c.simplex); ++axis) {
-        double low = c.vertex(0, axis), high = low;
-        for (int i = 1; i < vertex_count(c.simplex); ++i) {
-            low = std::min(low, c.vertex(i, axis));
-            high = std::max(high, c.vertex(i, axis));
-        }
-        if (!(high - low >= 0x1p-300 && high - low <= 0x1p300)) return false;
+        base::Range on_axis;
+        for (int i = 0; i < vertex_count(c.simplex); ++i) on_axis.add(c.vertex(i, axis));
+        const double length = on_axis.high - on_axis.low;
+        if (!(length >= 0x1p-300 && length <= 0x1p300)) return false;
     }
     return true;
 }

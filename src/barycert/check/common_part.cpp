@@ -167,7 +167,8 @@ CellContact common_part(Simplex simplex, const CellPair& cells, const Corners& a
     add_extreme_points(p, q, all);
     add_extreme_points(q, p, all);
     const std::vector<Point> points = spanning(d, all);
-    CellContact contact{cells, points.size() == n, static_cast<int>(points.size()) - 1, {}};
+    const int dimension = static_cast<int>(points.size()) - 1;
+    CellContact contact{cells, points.size() == n, dimension, {}};
     if (points.empty()) return contact;
     // What the two have in common is the convex hull of all points: the mean of some that span it is in its relative
     // interior.

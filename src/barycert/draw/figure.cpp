@@ -37,7 +37,7 @@ Status write(const std::string& path, Figure figure, FigureCounts& counts) {
     if (pixels && figure.grid && !o.bar && o.axes == Axes::none && o.title.empty() && o.resolution == 1)
         return write_rows(path, figure, counts);
     if (!pixels) o.resolution = 300 / 96.0, o.samples = std::min(o.samples, 2);  // of more pixels
-    const Result<Picture> picture = laid_out(figure, !pixels, counts);
+    const Result<Picture> picture = laid_out(figure, pixels ? Form::image : Form::vectors, counts);
     if (picture) counts.size = size_of(*picture, pixels ? o.resolution : 1);
     return picture ? write_picture(path, *picture, o.background, o.resolution) : Status(picture.error());
 }
@@ -63,7 +63,7 @@ Result<Image> draw_figure(const Figure& figure, FigureCounts* counts) {
     const ExactEnvironment environment;
     if (Status good = draw::check(figure); !good) return good.error();
     FigureCounts told;
-    const Result<draw::Picture> picture = draw::laid_out(figure, false, told);
+    const Result<draw::Picture> picture = draw::laid_out(figure, draw::Form::image, told);
     if (!picture) return picture.error();
     told.size = draw::size_of(*picture, figure.options.resolution);
     if (counts != nullptr) *counts = told;

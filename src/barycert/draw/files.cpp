@@ -256,6 +256,10 @@ Result<std::string> file_text(std::string_view path, const Picture& picture, Rgb
 }
 
 Status write_picture(const std::string& path, const Picture& picture, Rgba ground, double scale) {
+    if (io::has_suffix(path, ".png")) {  // row by row
+        const Result<Image> image = drawn(picture, ground, scale);
+        return image ? write_png(path, *image) : Status(image.error());
+    }
     const Result<std::string> text = file_text(path, picture, ground, scale);
     if (!text) return text.error();
     base::OutputFile file(path);

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "barycert/base/text.hpp"
+#include "barycert/draw/files.hpp"
 
 namespace barycert::draw {
 namespace {
@@ -17,7 +18,7 @@ struct CountAxis : Axis {
     CountAxis(const std::vector<std::uint64_t>& counts, const std::string& counted) {
         from = 214;
         to = 40;
-        title = counted;
+        title = counted + "s";
         double min = std::numeric_limits<double>::infinity();
         for (const std::uint64_t c : counts) {
             max = std::max(max, static_cast<double>(c));
@@ -51,14 +52,15 @@ Picture histogram(const Histogram& of) {
         const double tall = std::max(y.from - y.at(y.height(static_cast<double>(count))), 1.0);
         const double at = x.from + wide * static_cast<double>(i);
         picture.bar({at + 0.5, y.from - tall}, wide - 1, tall, of.bad && of.bad(i) ? "bar bad" : "bar",
-                    fmt::format("{}: {} {}", of.range(i), base::grouped(count),
-                                count == 1 ? of.counted.substr(0, of.counted.size() - 1) : of.counted));
+                    fmt::format("{}: {} {}{}", of.range(i), base::grouped(count), of.counted, count == 1 ? "" : "s"));
         picture.text({at + wide / 2 + 3, y.from - tall - 3}, base::brief_count(count), "count", true);
     }
     return picture;
 }
 
-Picture in_rows(const std::vector<Picture>& all, const std::string& title) {
+Result<std::string> rows_text(std::string_view path, const std::vector<Picture>& all, const std::string& title) {
+    if (all.empty())
+        return Error{.what = "there is nothing to plot", .found = "no value", .remedy = "leave the plot out"};
     constexpr double head = 48, left = 12;
     double wide = 0, tall = 0;
     for (const Picture& p : all) wide = std::max(wide, p.width), tall = std::max(tall, p.height);
@@ -69,7 +71,7 @@ Picture in_rows(const std::vector<Picture>& all, const std::string& title) {
         const std::size_t column = i % 2, row = i / 2;
         out.add(all[i], {left + wide * static_cast<double>(column), head + tall * static_cast<double>(row)});
     }
-    return out;
+    return file_text(path, out);
 }
 
 }  // namespace barycert::draw

@@ -12,7 +12,7 @@ struct Histogram {
     std::string title;  ///< what it is, to a reader who cannot see it
     Axis x;             ///< without pixels
     std::vector<std::uint64_t> counts;
-    std::string counted = "cells";
+    std::string counted = "cell";                       ///< one of them
     std::function<std::string(std::size_t bin)> range;  ///< "1 to 2"
     std::function<bool(std::size_t bin)> bad = {};      ///< in red
 };
@@ -20,7 +20,7 @@ struct Histogram {
 /// 520 by 262 pixels. Counts are logarithmic if the smallest is below 1 % of the largest.
 Picture histogram(const Histogram& of);
 
-/// Two beside each other, below a title.
-Picture in_rows(const std::vector<Picture>& all, const std::string& title);
+/// Two beside each other, below a title, as file_text. Error: there are none.
+Result<std::string> rows_text(std::string_view path, const std::vector<Picture>& all, const std::string& title);
 
 }  // namespace barycert::draw

@@ -21,12 +21,12 @@ Rgba ink(const FigureOptions& o) {
 
 class Layout {
 public:
-    Layout(const Figure& figure, bool vectors, FigureCounts& counts)
+    Layout(const Figure& figure, Form form, FigureCounts& counts)
         : f_(figure),
           o_(f_.options),
           picture_(o_.size.width, o_.size.height, o_.title.empty() ? "a mesh" : o_.title),
           resolution_(o_.resolution),
-          vectors_(vectors),
+          form_(form),
           counts_(counts) {}
 
     Result<Picture> run() {
@@ -83,8 +83,9 @@ public:
                                   fmt::format("{} by {}", window.width, window.height), "choose a smaller size");
             const bool box = f_.dimension == 3 && o_.axes == Axes::box && add_box();
             const View view(f_, window, part_of(f_));
-            if (vectors_ && view.is_flat()) {
-                view.draw(picture_, {x0, y0}, *scale, counts_);
+            if (box) set_box_edges(view);
+            if (form_ == Form::vectors && view.is_flat()) {
+                picture_.add(view.polygons(*scale, counts_), origin_);
             } else {
                 auto image = std::make_shared<Image>(view.draw(*scale, counts_));
                 picture_.place({x0, y0}, window.width / resolution_, window.height / resolution_, std::move(image));
@@ -137,14 +138,14 @@ private:
     bool has_none() const {
         if (f_.grid) return false;  // nothing is drawn there
         const auto none = [&](double x) { return !std::isfinite(x) || (o_.log && !(x > 0)); };
-        const auto in_points = [&](const FigurePoints& p) { return std::ranges::any_of(p.values, none); };
-        return std::ranges::any_of(f_.points, in_points) ||
-               std::ranges::any_of(f_.surfaces, [&](const FigureSurface& s) {
-                   return std::ranges::any_of(s.triangle_values, none) ||
-                          (!s.point_values.empty() && std::ranges::any_of(s.triangles, [&](std::int32_t i) {
-                              return none(s.point_values[static_cast<std::size_t>(i)]);
-                          }));
-               });
+        const auto in_marks = [&](const auto& of) { return std::ranges::any_of(of.values, none); };
+        if (std::ranges::any_of(f_.points, in_marks) || std::ranges::any_of(f_.arrows, in_marks)) return true;
+        return std::ranges::any_of(f_.surfaces, [&](const FigureSurface& s) {
+            return std::ranges::any_of(s.triangle_values, none) ||
+                   (!s.point_values.empty() && std::ranges::any_of(s.triangles, [&](std::int32_t i) {
+                       return none(s.point_values[static_cast<std::size_t>(i)]);
+                   }));
+        });
     }
 
     void draw_plane_axes(const std::array<std::array<double, 2>, 2>& ends, Pixel from, Pixel to) {
@@ -172,22 +173,38 @@ private:
         draw_axes(picture_, x, y);
     }
 
-    /// The box of what is drawn, as lines, but for those in front, at the nearest corner; false if there is nothing.
+    /// The box of what is drawn, as lines; false if there is nothing.
     bool add_box() {
         const Space space(f_);
         if (space.box[0].empty()) return false;
-        const Vector3 towards = ViewAxes(o_.camera).towards;
-        unsigned nearest = 0;
-        for (unsigned k = 0; k < 3; ++k) nearest |= towards[k] < 0 ? 0U : 1U << k;
         for (unsigned i = 0; i < 8; ++i) {
             const Vector3 at = space.corner(i);
             corners_.insert(corners_.end(), at.begin(), at.end());
-            for (unsigned k = 0; k < 3; ++k)
-                if ((i >> k & 1U) == 0 && i != nearest && (i | 1U << k) != nearest)
-                    edges_.insert(edges_.end(), {static_cast<int>(i), static_cast<int>(i | 1U << k)});
+            edges_.push_back(static_cast<int>(i));  // until the camera is known, which is to see them all
         }
         f_.lines.push_back({.points = corners_, .segments = edges_, .width = 1, .colour = ink(o_)});
         return true;
+    }
+
+    /// The edges, but for those between two sides that look at the viewer, which lie before the mesh.
+    void set_box_edges(const View& view) {
+        const auto looks_at_viewer = [&](unsigned k, bool high) {
+            const unsigned first = high ? 1U << k : 0, u = 1U << (k + 1) % 3, v = 1U << (k + 2) % 3;
+            const auto at = [&](unsigned i) { return view.at(view.space().corner(i)); };
+            const Pixel a = at(first), b = at(first | u), c = at(first | v);
+            const double area = (c.x - a.x) * (b.y - a.y) - (b.x - a.x) * (c.y - a.y);  // y is downwards
+            return (high ? area : -area) > 1;
+        };
+        edges_.clear();
+        for (unsigned i = 0; i < 8; ++i) {
+            for (unsigned k = 0; k < 3; ++k) {
+                const unsigned u = (k + 1) % 3, v = (k + 2) % 3;
+                if ((i >> k & 1U) != 0) continue;
+                if (looks_at_viewer(u, (i >> u & 1U) != 0) && looks_at_viewer(v, (i >> v & 1U) != 0)) continue;
+                edges_.insert(edges_.end(), {static_cast<int>(i), static_cast<int>(i | 1U << k)});
+            }
+        }
+        f_.lines.back().segments = edges_;
     }
 
     Pixel on_page(const View& view, const Vector3& at) const {
@@ -253,7 +270,7 @@ private:
     const FigureOptions& o_;
     Picture picture_;
     double resolution_;
-    bool vectors_;
+    Form form_;
     FigureCounts& counts_;
     std::optional<RasterSize> window_;
     double least_tall_ = 0;  ///< of the room for the bar
@@ -264,8 +281,8 @@ private:
 
 }  // namespace
 
-Result<Picture> laid_out(const Figure& figure, bool vectors, FigureCounts& counts) {
-    return Layout(figure, vectors, counts).run();
+Result<Picture> laid_out(const Figure& figure, Form form, FigureCounts& counts) {
+    return Layout(figure, form, counts).run();
 }
 
 }  // namespace barycert::draw

@@ -9,8 +9,12 @@ namespace barycert::draw {
 /// Whether the figure can be drawn.
 Status check(const Figure& figure);
 
-/// The window with what the camera sees, axes, the colour bar, the title. `vectors`: what can be polygons is.
-/// Precondition: check(figure).
-Result<Picture> laid_out(const Figure& figure, bool vectors, FigureCounts& counts);
+enum class Form : std::uint8_t {
+    image,    ///< what the camera sees
+    vectors,  ///< polygons and lines in its place, where View::is_flat
+};
+
+/// The window with what the camera sees, axes, the colour bar, the title. Precondition: check(figure).
+Result<Picture> laid_out(const Figure& figure, Form form, FigureCounts& counts);
 
 }  // namespace barycert::draw

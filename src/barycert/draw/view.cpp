@@ -152,6 +152,12 @@ private:
         paints.push_back({colour.value_or(Rgba{}), static_cast<float>(shade), !colour});
     }
 
+    Rgba colour_of(double value) {
+        if (std::isfinite(value)) return scale_(value);
+        ++without_value;
+        return scale_.no_value;
+    }
+
     void add(const FigureSurface& s) {
         const auto first = static_cast<std::int32_t>(values.size());
         for (std::size_t i = 0; i < s.points.size() / d_; ++i)
@@ -185,11 +191,7 @@ private:
             const double lift = d_ == 2 ? before : std::min(0.5 * f.size * view_.pixel_at(at), 0.05);
             for (std::size_t j = 0; j < 3; ++j) at[j] += lift * towards[j];
             const double radius = 0.5 * f.size * view_.pixel_at(at);
-            Rgba colour = f.colour;
-            if (!f.values.empty()) {
-                const double x = f.values[i / d_];
-                colour = std::isfinite(x) ? scale_(x) : scale_.no_value;
-            }
+            const Rgba colour = f.values.empty() ? f.colour : colour_of(f.values[i / d_]);
             const auto first = static_cast<std::int32_t>(values.size());
             for (std::int32_t k = 0; k < sides; ++k) {
                 const double turn = 2 * std::numbers::pi * k / sides;
@@ -210,7 +212,7 @@ private:
             // Not so long that it overflows.
             const double own = length_of(v, d_), length = std::min(own / most * a.longest / view_.space().half, 0x1p20);
             if (!(length > 0)) continue;
-            const Rgba colour = a.values.empty() ? a.colour : scale_(a.values[i / d_]);
+            const Rgba colour = a.values.empty() ? a.colour : colour_of(a.values[i / d_]);
             Vector3 along{};
             for (std::size_t k = 0; k < d_; ++k) along[k] = v[k] / own;
             Vector3 from = view_.space()(a.points.data() + i);
@@ -299,40 +301,39 @@ double View::pixel_at(const Vector3& normalised) const {
 }
 
 bool View::is_flat() const {
-    constexpr std::size_t most = 20'000;
+    constexpr std::size_t most = 20'000;  // a file of them has some megabytes
     std::size_t triangles = 0;
-    for (const FigureSurface& s : figure_.surfaces) {
-        if (!s.point_values.empty()) return false;
-        triangles += s.triangles.size() / 3;
-    }
-    return figure_.dimension == 2 && figure_.options.camera.zoom <= 1 && triangles < most;
+    for (const FigureSurface& s : figure_.surfaces) triangles += s.triangles.size() / 3;
+    const auto by_points = [](const FigureSurface& s) { return !s.point_values.empty(); };
+    return figure_.dimension == 2 && figure_.arrows.empty() && figure_.points.empty() && triangles < most &&
+           figure_.options.camera.zoom <= 1 && std::ranges::none_of(figure_.surfaces, by_points);
 }
 
-void View::draw(Picture& to, Pixel corner, const ColourScale& scale, FigureCounts& counts) const {
+Picture View::polygons(const ColourScale& scale, FigureCounts& counts) const {
     const Parts all(figure_, *this, scale);
-    const auto on_page = [&](const Vector3& at) {
-        const Pixel p = seen(at);
-        return Pixel{corner.x + p.x / figure_.options.resolution, corner.y + p.y / figure_.options.resolution};
-    };
+    const double resolution = figure_.options.resolution;
+    Picture out(window_.width / resolution, window_.height / resolution, "");
+    const auto placed = [&](const Vector3& at) { return Pixel{seen(at).x / resolution, seen(at).y / resolution}; };
     for (std::size_t t = 0; t < all.paints.size(); ++t) {
         std::vector<Pixel> polygon;
-        for (std::size_t c = 0; c < 3; ++c) polygon.push_back(on_page(all.point(all.triangles[3 * t + c])));
-        to.area(std::move(polygon), "", all.paints[t].colour);
-        to.items.back().width = 0.4;  // programs that show it would let the ground through between neighbours
+        for (std::size_t c = 0; c < 3; ++c) polygon.push_back(placed(all.point(all.triangles[3 * t + c])));
+        out.area(std::move(polygon), "", all.paints[t].colour);
+        out.items.back().width = 0.4;  // enough that programs do not let the ground through between neighbours
     }
     for (const FigureLines& l : figure_.lines) {
         std::vector<std::pair<Pixel, Pixel>> segments;
         const auto end = [&](std::size_t i) {
-            return on_page(space_(&l.points[2 * static_cast<std::size_t>(l.segments[i])]));
+            return placed(space_(&l.points[2 * static_cast<std::size_t>(l.segments[i])]));
         };
-        for (std::size_t i = 0; i + 1 < l.segments.size(); i += 2) segments.emplace_back(end(i), end(i + 1));
-        to.lines(segments, "");
+        for (std::size_t i = 0; i < l.segments.size(); i += 2) segments.emplace_back(end(i), end(i + 1));
         if (segments.empty()) continue;
-        to.items.back().width = l.width;
-        to.items.back().colour = l.colour;
+        out.lines(segments, "");
+        out.items.back().width = l.width;
+        out.items.back().colour = l.colour;
     }
     counts.without_value = all.without_value;
     counts.render.triangles = counts.render.drawn = all.paints.size();
+    return out;
 }
 
 std::array<double, 2> View::seen(std::size_t axis) const {

@@ -58,8 +58,7 @@ public:
     Image draw(const ColourScale& scale, FigureCounts& counts) const;
     /// True if it can be polygons, as write_figure says.
     bool is_flat() const;
-    /// As polygons and lines, with the window's corner there.
-    void draw(Picture& to, Pixel corner, const ColourScale& scale, FigureCounts& counts) const;
+    Picture polygons(const ColourScale& scale, FigureCounts& counts) const;
 
 private:
     Pixel seen(const Vector3& normalised) const;

@@ -85,6 +85,11 @@ struct Cells {
     std::span<const double> points;
     std::span<const Mesh::Index> cells;
     std::span<const Mesh::Index> wholes = {};  ///< Mesh::Shapes::parts
+
+    /// The first part of a whole cell. Without parts cells are whole themselves.
+    std::size_t first_of(std::size_t whole) const {
+        return wholes.empty() ? whole : static_cast<std::size_t>(wholes[whole]);
+    }
 };
 
 /// The nodes that cells have, ascending: others may lie anywhere.
@@ -139,22 +144,18 @@ Buffer<Place> place_nodes(const Cells& mesh, const std::vector<Mesh::Index>& use
     return place;
 }
 
-/// The cells along the curve, by the middles of their corners in whole numbers of the quantizer. Parts of a whole cell
-/// stay together: there are fewer to sort, and they have most of their facets in common.
+/// Whole cells along the curve, by the middles of their parts' corners in whole numbers of the quantizer. Parts of a
+/// whole cell stay together: there are fewer to sort, and they have most of their facets in common.
 template <std::size_t d, std::size_t corners>
 Buffer<KeyedPlace> order_cells(const Cells& mesh, const Bins& bins) {
     Buffer<std::array<std::int32_t, d>> nodes(mesh.points.size() / d);
     base::parallel_for_each(nodes.size(), grain, [&](std::size_t i) {
         for (std::size_t k = 0; k < d; ++k) nodes[i][k] = bins.quantizer().at(k, mesh.points[d * i + k]);
     });
-    const std::size_t count = mesh.cells.size() / corners;
-    const auto first_of = [&](std::size_t i) {
-        return mesh.wholes.empty() ? i : static_cast<std::size_t>(mesh.wholes[i]);
-    };
     constexpr std::size_t ahead = 12 * corners;
-    Buffer<KeyedPlace> wholes(mesh.wholes.empty() ? count : mesh.wholes.size() - 1);
+    Buffer<KeyedPlace> wholes(mesh.wholes.empty() ? mesh.cells.size() / corners : mesh.wholes.size() - 1);
     base::parallel_for_each(wholes.size(), grain, [&](std::size_t c) {
-        const std::size_t begin = corners * first_of(c), end = corners * first_of(c + 1);
+        const std::size_t begin = corners * mesh.first_of(c), end = corners * mesh.first_of(c + 1);
         std::array<std::int64_t, d> sum{};
         for (std::size_t i = begin; i < end; ++i) {
             if (i + ahead < mesh.cells.size())
@@ -166,53 +167,80 @@ Buffer<KeyedPlace> order_cells(const Cells& mesh, const Bins& bins) {
         wholes[c] = {bins.of_quantized(sum), static_cast<Place>(c)};
     });
     sort_by_key(wholes, bins.bits());
-    if (mesh.wholes.empty()) return wholes;
-    std::vector<std::size_t> first(wholes.size() + 1, 0);
-    for (std::size_t i = 0; i < wholes.size(); ++i) {
-        const auto w = static_cast<std::size_t>(wholes[i].place);
-        first[i + 1] = first[i] + first_of(w + 1) - first_of(w);
-    }
-    Buffer<KeyedPlace> cells(count);
-    base::parallel_for_each(wholes.size(), grain, [&](std::size_t i) {
-        auto cell = static_cast<Place>(first_of(static_cast<std::size_t>(wholes[i].place)));
-        for (std::size_t place = first[i]; place < first[i + 1]; ++place) cells[place] = {wholes[i].key, cell++};
-    });
-    return cells;
+    return wholes;
 }
 
-template <std::size_t corners>
+/// The bin of the middle of a cell, or of one beside it: coordinates are rounded here.
+template <std::size_t d, std::size_t corners>
+std::uint32_t bin_of_middle(const CellIndex& index, const CellRecord& cell) {
+    std::array<double, d> middle{};
+    for (std::size_t i = 0; i < corners; ++i)
+        for (std::size_t k = 0; k < d; ++k) middle[k] += index.nodes[cell.node[i]].at[k] * (1.0 / corners);
+    return index.bins.of(middle.data());
+}
+
+/// In the order of whole cells. Of several cells with their middles in one bin the last one is its start.
+template <std::size_t d, std::size_t corners>
 void place_cells(const Cells& mesh, const Buffer<KeyedPlace>& order, const Buffer<Place>& place_of_node,
                  CellIndex& index) {
-    // Cells that are near in space are anywhere in the file: they are asked for some cells ahead.
+    const auto whole_at = [&](std::size_t i) { return static_cast<std::size_t>(order[i].place); };
+    std::vector<Place> begin(mesh.wholes.empty() ? 0 : order.size());
+    for (std::size_t i = 1; i < begin.size(); ++i)
+        begin[i] = begin[i - 1] + mesh.wholes[whole_at(i - 1) + 1] - mesh.wholes[whole_at(i - 1)];
+    // Cells that are near in space are anywhere in the file: they are asked for some ahead.
     constexpr std::size_t ahead = 32;
-    const auto corners_at = [&](std::size_t place) {
-        return mesh.cells.data() + corners * static_cast<std::size_t>(order[place].place);
-    };
-    const auto bin_at = [&](std::size_t place) { return order[place].key >> CellIndex::part_bits; };
     base::parallel_for(order.size(), grain, [&](std::size_t first, std::size_t last) {
-        std::size_t bin = index.first.empty() ? SIZE_MAX : first == 0 ? 0 : std::size_t{bin_at(first - 1)} + 1;
-        for (std::size_t place = first; place < last; ++place) {
-            if (place + ahead < last) __builtin_prefetch(corners_at(place + ahead));
-            while (bin <= bin_at(place)) index.first[bin++] = static_cast<Place>(place);
-            const Mesh::Index* const corner = corners_at(place);
-            CellRecord& record = index.cells[place];
-            for (std::size_t i = 0; i < corners; ++i)
-                record.node[i] = place_of_node[static_cast<std::size_t>(corner[i])];
-            if constexpr (corners == 3) record.node[3] = record.node[0];
-            record.next = {-1, -1, -1, -1};
-            index.original[place] = order[place].place;
+        for (std::size_t i = first; i < last; ++i) {
+            if (i + ahead < last) {
+                const Mesh::Index* const soon = mesh.cells.data() + corners * mesh.first_of(whole_at(i + ahead));
+                __builtin_prefetch(soon);
+                if (!mesh.wholes.empty()) __builtin_prefetch(soon + 4 * corners);
+            }
+            if (!mesh.wholes.empty() && i + 2 * ahead < last) __builtin_prefetch(&mesh.wholes[whole_at(i + 2 * ahead)]);
+            auto place = mesh.wholes.empty() ? static_cast<Place>(i) : begin[i];
+            for (std::size_t cell = mesh.first_of(whole_at(i)); cell < mesh.first_of(whole_at(i) + 1);
+                 ++cell, ++place) {
+                CellRecord& record = index.cells[place];
+                for (std::size_t k = 0; k < corners; ++k)
+                    record.node[k] = place_of_node[static_cast<std::size_t>(mesh.cells[corners * cell + k])];
+                if constexpr (corners == 3) record.node[3] = record.node[0];
+                record.next = {-1, -1, -1, -1};
+                index.original[place] = static_cast<Mesh::Index>(cell);
+                if (index.start.size() == 0) continue;
+                const std::atomic_ref start(
+                    index.start[mesh.wholes.empty() ? order[i].key : bin_of_middle<d, corners>(index, record)]);
+                Place before = start.load(std::memory_order_relaxed);
+                while (before < place && !start.compare_exchange_weak(before, place, std::memory_order_relaxed))
+                    continue;
+            }
         }
     });
-    if (index.first.empty()) return;
-    const std::size_t end = std::size_t{bin_at(order.size() - 1)} + 1;
-    std::fill(index.first.begin() + static_cast<std::ptrdiff_t>(end), index.first.end(),
-              static_cast<Place>(order.size()));
+}
+
+/// Bins without a middle get the start at the same place of the other half of their block: the smallest that has any.
+/// Blocks of each round have starts everywhere or nowhere.
+void fill_starts(Buffer<Place>& start) {
+    const auto fill = [&](std::size_t first, std::size_t size, std::size_t from) {
+        for (std::size_t half = from; half < size; half *= 2) {
+            for (Place* low = &start[first]; low != &start[first] + size; low += 2 * half) {
+                Place* const high = low + half;
+                if (*low < 0) std::copy_n(high, half, low);
+                if (*high < 0) std::copy_n(low, half, high);
+            }
+        }
+    };
+    const std::size_t block = std::min(grain, start.size());
+    base::parallel_for(start.size() / block, [&](std::size_t b) { fill(b * block, block, 1); });
+    fill(0, start.size(), block);
 }
 
 template <std::size_t d, std::size_t corners>
 void build(const Cells& mesh, const std::vector<Mesh::Index>& used, CellIndex& index) {
     const Buffer<Place> place_of_node = place_nodes<d>(mesh, used, index);
-    place_cells<corners>(mesh, order_cells<d, corners>(mesh, index.bins), place_of_node, index);
+    const Buffer<KeyedPlace> order = order_cells<d, corners>(mesh, index.bins);
+    std::fill_n(index.start.data(), index.start.size(), -1);
+    place_cells<d, corners>(mesh, order, place_of_node, index);
+    if (index.start.size() != 0) fill_starts(index.start);
 }
 
 }  // namespace
@@ -227,15 +255,15 @@ CellIndex make_cell_index(Simplex simplex, std::span<const double> points, std::
     find_box(mesh, used, index);
     index.cells = Buffer<CellRecord>(count);
     index.original = Buffer<Mesh::Index>(count);
-    if (count == 0) {
-        index.first.assign(2, 0);
-        return index;
-    }
     // A surface goes through few of the bins of its box.
     const bool surface = simplex == Simplex::triangle3d;
-    index.bins = Bins(index.dimension(), index.low.data(), index.high.data(),
-                      (wholes.empty() ? count : wholes.size() - 1) << (surface ? 7 : CellIndex::part_bits));
-    if (!surface) index.first.resize((index.bins.count() >> CellIndex::part_bits) + 2);
+    if (count != 0)
+        index.bins = Bins(index.dimension(), index.low.data(), index.high.data(), count << (surface ? 7 : 0));
+    if (!surface) index.start = Buffer<Place>(index.bins.count());
+    if (count == 0) {
+        std::fill_n(index.start.data(), index.start.size(), 0);
+        return index;
+    }
     simplex == Simplex::triangle     ? build<2, 3>(mesh, used, index)
     : simplex == Simplex::triangle3d ? build<3, 3>(mesh, used, index)
                                      : build<3, 4>(mesh, used, index);
@@ -244,7 +272,7 @@ CellIndex make_cell_index(Simplex simplex, std::span<const double> points, std::
 
 std::size_t CellIndex::bytes() const {
     return cells.bytes() + original.bytes() + nodes.bytes() + original_node.size() * sizeof(Mesh::Index) +
-           first.size() * sizeof(Place);
+           start.bytes();
 }
 
 std::array<double, 12> vertices_of(const CellIndex& index, Place cell) {

@@ -61,14 +61,13 @@ struct alignas(32) NodeRecord {
 struct CellIndex {
     Simplex simplex = Simplex::tetrahedron;
     std::array<double, 3> low{}, high{};  ///< the box of all cells, exactly
-    Bins bins;                            ///< of which several make a bin of `first`: by them cells are ordered there
-    static constexpr int part_bits = 3;
+    Bins bins;                            ///< about as many as cells
     Buffer<CellRecord> cells;
     Buffer<Mesh::Index> original;  ///< cell of the mesh by place
     Buffer<NodeRecord> nodes;
     std::vector<Mesh::Index> original_node;  ///< node of the mesh by place; those of no cell have none
-    /// By bin, without its last part_bits bits: the first cell there or later; one more at the end. Empty of surfaces.
-    std::vector<Place> first;
+    /// By bin: a cell with its middle there, or in a bin near by; 0 if there is no cell. Empty of surfaces.
+    Buffer<Place> start;
     const std::uint16_t* inside = nullptr;  ///< Mesh::Shapes::inside, where cells of the mesh are parts of others
 
     std::size_t dimension() const { return static_cast<std::size_t>(space_dimension(simplex)); }
@@ -82,15 +81,6 @@ struct CellIndex {
         const auto& node = cells[static_cast<std::size_t>(cell)].node;
         for (std::size_t i = 0; i < corners(); ++i) at[i] = nodes[static_cast<std::size_t>(node[i])].at.data();
         return at;
-    }
-
-    /// A cell near the points of a bin: where it would stand among the cells of its bin of `first`, or the next cell.
-    /// Precondition: there is a cell.
-    Place start(std::uint32_t bin) const {
-        const Place begin = first[bin >> part_bits], count = first[(bin >> part_bits) + 1] - begin;
-        constexpr std::uint32_t parts = 1U << part_bits;
-        const auto before = static_cast<std::int64_t>(2 * (bin & (parts - 1)) + 1) * count / (2 * parts);
-        return std::min(begin + static_cast<Place>(before), static_cast<Place>(cells.size()) - 1);
     }
 
     bool box_holds(const double* p) const {

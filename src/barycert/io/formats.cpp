@@ -159,6 +159,11 @@ Result<MeshFormat> format_of_file(const std::string& path) {
                       "the program that they are of");
 }
 
+template <class Read>
+Result<Mesh> on_threads(int threads, const Read& read) {
+    return threads <= 0 ? read() : base::in_arena(threads, std::numeric_limits<std::size_t>::max(), read);
+}
+
 }  // namespace
 
 Result<MeshFormat> mesh_format(const std::string& path) {
@@ -235,12 +240,12 @@ Result<Mesh> io::read_mesh_in_space(const std::string& path, const ReadOptions& 
     if (!format) return format.error();
     if (options.step.made() && *format != MeshFormat::vtk) return no_series(path);
     if (*format == MeshFormat::gmsh) return read_gmsh_in_space(path, {.step = {}, .threads = options.threads}, space);
+    if (*format == MeshFormat::vtk)
+        return on_threads(options.threads, [&] { return read_vtk_in_space(path, options, space); });
+    if (*format == MeshFormat::medit)
+        return on_threads(options.threads, [&] { return read_medit(path, options, space); });
     if (*format == MeshFormat::by_meshio) return read_converted(path, meshio_format(path));
-    if (*format == MeshFormat::tetgen) return read_tetgen(path, options);
-    auto* const reader = *format == MeshFormat::vtk ? read_vtk_in_space : read_medit;
-    const auto read = [&] { return reader(path, options, space); };
-    if (options.threads <= 0) return read();
-    return base::in_arena(options.threads, std::numeric_limits<std::size_t>::max(), read);
+    return read_tetgen(path, options);
 }
 
 Result<Mesh> read_mesh(const std::string& path, const ReadOptions& options) {

@@ -119,6 +119,7 @@ void refuse_options_of_meshes(const CheckJob& job, const char* what) {
     refuse_one(io::is_surface_file(job.mesh) && job.step.made(), "job.step");
     refuse_one(!job.plc.empty(), "job.plc");
     refuse_one(!copy_of(job).path.empty(), copy_of(job).what);
+    refuse_one(job.plot, "job.plot");
     if (!job.measures.empty() && !io::has_suffix(job.measures, ".vtp"))
         refuse(job.measures, "job.measures writes VTP files of surfaces", "a name that ends in .vtp", "",
                "choose another name");

@@ -111,7 +111,7 @@ void MeshFigure::choose_cells() {
     const auto drop = [&](auto leaves_out) {
         for (std::size_t i = 0; i < kept.size(); ++i) kept[i] = kept[i] && !leaves_out(i);
     };
-    const std::size_t corners = mesh.corners(), d = static_cast<std::size_t>(mesh.dimension);
+    const auto d = static_cast<std::size_t>(mesh.dimension);
     if (show_.threshold) {
         const SceneChoice::Threshold& within = *show_.threshold;
         const FieldChoice of = field_of_numbers(mesh, within.field, made_, notes_);
@@ -119,15 +119,15 @@ void MeshFigure::choose_cells() {
         const auto out = [&](double x) { return !(within.low <= x && x <= within.high); };
         drop([&](std::size_t i) {
             if (of.of_cells) return out(data[i]);
-            return std::any_of(&mesh.cells[corners * i], &mesh.cells[corners * i] + corners,
-                               [&](Mesh::Index node) { return out(data[static_cast<std::size_t>(node)]); });
+            const auto is_out = [&](Mesh::Index node) { return out(data[static_cast<std::size_t>(node)]); };
+            return std::ranges::any_of(mesh.corners_of(i), is_out);
         });
     }
     if (show_.box) {
         const auto& box = *show_.box;
         drop([&](std::size_t i) {
-            return std::any_of(&mesh.cells[corners * i], &mesh.cells[corners * i] + corners, [&](Mesh::Index node) {
-                const double* const p = &mesh.points[d * static_cast<std::size_t>(node)];
+            return std::ranges::any_of(mesh.corners_of(i), [&](Mesh::Index node) {
+                const double* const p = mesh.point(node);
                 bool inside = true;
                 for (std::size_t k = 0; k < d; ++k) inside = inside && box.first[k] < p[k] && p[k] < box.second[k];
                 return inside;
@@ -372,17 +372,17 @@ void MeshFigure::add_arrows() {
         {.points = points, .vectors = numbers, .values = values, .longest = 1.2 * side, .colour = dark_grey});
 }
 
-/// Sampled in what is drawn of the mesh.
+/// In the cells that were chosen.
 void MeshFigure::add_points() {
     FigurePoints& of = figure_.points.emplace_back(
         FigurePoints{.points = show_.points, .size = show_.point_size, .colour = dark_grey});
     if (shown_.field == nullptr) return;
-    const Locator locator = Locator::build(*mesh_, {.straight_sides = true, .threads = threads_}).value();
+    const Locator locator = Locator::build(*mesh_, show_.cells).value();
     const Table rows = Sampler::build(locator, {shown_}).value().sample(show_.points, {.threads = threads_}).value();
     of.values = numbers_.emplace_back(rows.values);
     if (const std::uint64_t none = rows.counts.locations.outside; none != 0)
-        notes_.push_back({.text = fmt::format("values of {} of {} points, which lie in no cell that is drawn: grey",
-                                              none, rows.cells.size())});
+        notes_.push_back(
+            {.text = fmt::format("values of {} of {} points, which lie in no cell: grey", none, rows.cells.size())});
 }
 
 }  // namespace barycert::jobs

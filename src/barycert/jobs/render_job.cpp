@@ -166,9 +166,9 @@ void draw_mesh(const RenderJob& job, RenderReport& report) {
     report.rounding = job.figure.rounding;
     try {
         SceneChoice show = job.show;
+        show.cells = {.straight_sides = job.curved == Curved::straight, .threads = job.threads};
         if (!job.points.empty()) {
-            const std::unique_ptr<PointSource> points = open_points(job.points, mesh.dimension).value();
-            std::ranges::copy(points->notes(), std::back_inserter(report.notes));
+            const auto points = open_points(job.points, mesh.dimension, {.columns = job.columns}).value();
             while (points->read(1U << 20, show.points).value() != 0) continue;
             if (show.points.empty()) refuse(job.points, "there are no points to draw", "", "");
         }

@@ -41,13 +41,11 @@ public:
 
 private:
     void read_header() {
-        char bytes[sizeof header_] = {};
-        const auto size = static_cast<std::size_t>(std::min<std::uint64_t>(file_.size(), sizeof bytes));
+        const auto size = static_cast<std::size_t>(std::min<std::uint64_t>(file_.size(), sizeof header_));
         if (size == 0) foreign("an empty file");
-        read(0, bytes, size);
-        if (std::memcmp(bytes, ELFMAG, std::min<std::size_t>(size, SELFMAG)) != 0) foreign("another format");
-        if (size < sizeof bytes) cut();
-        std::memcpy(&header_, bytes, sizeof header_);
+        read(0, &header_, size);
+        if (std::memcmp(header_.e_ident, ELFMAG, std::min<std::size_t>(size, SELFMAG)) != 0) foreign("another format");
+        if (size < sizeof header_) cut();
         if (header_.e_ident[EI_CLASS] != own_class || header_.e_ident[EI_DATA] != own_order ||
             (own_machine != EM_NONE && header_.e_machine != own_machine))
             foreign("ELF for another machine");

@@ -36,12 +36,14 @@ void Upcoming::find(std::size_t number) {
     const std::size_t end = std::min(count, done + number), d = index->dimension();
     const SortedPoints::Entry* const entries = sorted->entries() + first;
     const double* const points = sorted->point(0);
+    constexpr std::size_t ahead = 16;
     for (std::size_t i = done; i < end; ++i) {
+        if (i + ahead < count) __builtin_prefetch(&index->start[entries[i + ahead].bin]);
         const SortedPoints::Entry entry = entries[i];
         const double* const at = points + d * entry.number;
         __builtin_prefetch(at, 0, 2);
         __builtin_prefetch(at + d - 1, 0, 2);
-        const Place cell = index->start(entry.bin);
+        const Place cell = index->start[entry.bin];
         __builtin_prefetch(index->cells.data() + cell, 0, 2);
         walks[i] = {static_cast<std::uint32_t>(i), cell};
     }

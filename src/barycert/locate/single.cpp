@@ -61,17 +61,15 @@ struct From {
 
 From start_of(const LocatorData& data, const double* p, Mesh::Index hint) {
     const CellIndex& index = data.index;
-    if (hint < 0 || static_cast<std::size_t>(hint) >= index.cell_count()) return {index.start(index.bins.of(p)), false};
+    if (hint < 0 || static_cast<std::size_t>(hint) >= index.cell_count()) return {index.start[index.bins.of(p)], false};
     if (last_end.cell == hint && last_end.data == &data &&
         static_cast<std::size_t>(last_end.place) < index.cell_count())
         return {last_end.place, true};
     // Both are asked of memory at the same time. Cells that are far apart in the order of the curve may be neighbours:
     // then the bin's start is a little farther than the hint.
-    constexpr Place near = 32;
-    const Place place = data.places()[static_cast<std::size_t>(hint)];
-    const std::uint32_t bin = index.bins.of(p), part = bin >> CellIndex::part_bits;
-    const Place start = index.start(bin), in_bin = index.first[part + 1] - index.first[part];
-    return std::abs(place - start) <= near + in_bin ? From{place, true} : From{start, false};
+    constexpr Place near = 40;
+    const Place place = data.places()[static_cast<std::size_t>(hint)], start = index.start[index.bins.of(p)];
+    return std::abs(place - start) <= near ? From{place, true} : From{start, false};
 }
 
 /// Asks for what the next look may read, and for the number of the cell, while this one is looked at.
@@ -94,7 +92,7 @@ End walk(const CellIndex& index, const double* p, From from) {
         if (!at.beyond) return {cell, false, false};
         const Place next = index.cells[cell].next[at.face];
         if (from.hint && (at.far || step == patience || next < 0)) {
-            from = {index.start(index.bins.of(p)), false};
+            from = {index.start[index.bins.of(p)], false};
             cell = from.cell;
         } else if (next < 0) {
             return {cell, false, true};

@@ -17,30 +17,26 @@ const iso::Reference* CellMaps::reference(std::size_t whole) const {
                                         : iso::simplex_reference(mesh_.dimension, mesh_.dimension == 3 ? 10 : 6);
     const std::uint8_t type = mesh_.shapes.types[whole];
     if (!is_curved_simplex(type)) return products_ ? iso::linear_reference(type) : nullptr;
-    const auto begin = whole == 0 ? 0 : mesh_.shapes.ends[whole - 1];
-    return curves_ ? iso::simplex_reference(mesh_.dimension, static_cast<std::size_t>(mesh_.shapes.ends[whole] - begin))
-                   : nullptr;
+    return curves_ ? iso::simplex_reference(mesh_.dimension, mesh_.shapes.nodes_of(whole).size()) : nullptr;
 }
 
 /// VTK numbers the nodes of pixels and voxels row by row, those of the others round each layer.
 CellMaps::Nodes CellMaps::nodes(std::size_t whole) const {
     Nodes nodes;
-    const auto add = [&](const Mesh::Index* first, std::size_t count) {
-        std::copy_n(first, count, nodes.at.begin() + static_cast<std::ptrdiff_t>(nodes.count));
-        nodes.count += count;
+    const auto add = [&](std::span<const Mesh::Index> some) {
+        std::ranges::copy(some, nodes.at.begin() + static_cast<std::ptrdiff_t>(nodes.count));
+        nodes.count += some.size();
     };
     if (has_shapes()) {
-        const auto begin = whole == 0 ? 0 : mesh_.shapes.ends[whole - 1];
-        add(mesh_.shapes.nodes.data() + begin, static_cast<std::size_t>(mesh_.shapes.ends[whole] - begin));
+        add(mesh_.shapes.nodes_of(whole));
         if (mesh_.shapes.types[whole] == 8 || mesh_.shapes.types[whole] == 11) {
             std::swap(nodes.at[2], nodes.at[3]);
             std::swap(nodes.at[6], nodes.at[7]);
         }
     } else {
-        const std::size_t corners = mesh_.corners(),
-                          mids = mesh_.mid_nodes.size() / std::max<std::size_t>(mesh_.cell_count(), 1);
-        add(&mesh_.cells[whole * corners], corners);
-        if (mids != 0) add(&mesh_.mid_nodes[whole * mids], mids);
+        const std::size_t mids = mesh_.mid_nodes.size() / std::max<std::size_t>(mesh_.cell_count(), 1);
+        add(mesh_.corners_of(whole));
+        if (mids != 0) add({&mesh_.mid_nodes[whole * mids], mids});
     }
     return nodes;
 }

@@ -178,9 +178,8 @@ public:
 
     void cut(std::size_t cell) {
         const Mesh::Shapes& shapes = mesh_.shapes;
-        const auto begin = cell == 0 ? 0 : shapes.ends[cell - 1];
         const std::uint8_t type = shapes.types[cell];
-        std::span nodes(shapes.nodes.data() + begin, shapes.nodes.data() + shapes.ends[cell]);
+        std::span<const Index> nodes = shapes.nodes_of(cell);
         if (is_curved_simplex(type)) nodes = nodes.first(mesh_.corners());
         const auto& of_type = rings_of(type);
         any_ = nodes.empty() ? 0 : nodes.front();

@@ -104,13 +104,12 @@ std::size_t Piece::whole_of(Mesh::Index cell) const {
 }
 
 std::vector<Mesh::Index> Piece::nodes_of(std::size_t whole) const {
-    const Mesh::Shapes& shapes = mesh.shapes;
-    if (shapes.count() == 0) {
+    if (mesh.shapes.count() == 0) {
         const sample::CellNodes nodes(mesh, whole);
         return {nodes.begin(), nodes.end()};
     }
-    const auto begin = shapes.nodes.begin();
-    return {begin + (whole == 0 ? 0 : shapes.ends[whole - 1]), begin + shapes.ends[whole]};
+    const std::span nodes = mesh.shapes.nodes_of(whole);
+    return {nodes.begin(), nodes.end()};
 }
 
 Box Piece::box_of(std::size_t whole) const {

@@ -38,14 +38,14 @@ public:
         base::parallel_for(bands, [&](std::size_t b) {
             const ExactEnvironment environment;  // threads that were there before have theirs
             const auto begin = static_cast<std::int32_t>(b) * rows_;
-            const auto band = Band::over(layers_, begin, std::min(begin + rows_, height_));
+            Band band(layers_, begin, std::min(begin + rows_, height_));
             std::vector<double> numbers(3 * layers_.numbers);
             for (const std::uint32_t i : of_band[b]) {
                 const Part& part = *all[i];
                 set_numbers(part, numbers);
-                if (band->draw(part, numbers) && !part.line) drawn_[part.source].store(true, std::memory_order_relaxed);
+                if (band.draw(part, numbers) && !part.line) drawn_[part.source].store(true, std::memory_order_relaxed);
             }
-            const RenderCounts own = band->resolve_into(image_);
+            const RenderCounts own = band.resolve_into(image_);
             const std::lock_guard lock(mutex);
             counts_.covered += own.covered;
             counts_.hidden += own.hidden;

@@ -327,14 +327,12 @@ Scene scene_of(const SceneValue& file, const std::filesystem::path& folder) {
 }  // namespace
 }  // namespace raster
 
-Result<Scene> read_scene(const std::string& path) {
+Result<Scene> read_scene(const std::string& path) try {
     const ExactEnvironment environment;
-    try {
-        const raster::Json json = raster::parse(raster::text_of_file(path).value(), path);
-        return raster::scene_of({json, "", path}, std::filesystem::path(path).parent_path());
-    } catch (const Exception& e) {
-        return e.error();
-    }
+    const raster::Json json = raster::parse(raster::text_of_file(path).value(), path);
+    return raster::scene_of({json, "", path}, std::filesystem::path(path).parent_path());
+} catch (const Exception& e) {
+    return e.error();
 }
 
 std::vector<std::string> scene_files(const std::string& path) {

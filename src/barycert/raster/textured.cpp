@@ -34,49 +34,16 @@ Status check_textured(const Image& image, const Texture& texture, std::span<cons
     return Done{};
 }
 
-/// Bands of rows, and the triangles that meet each, in their order. A band is small enough for a near cache: small
-/// triangles come in any order, and each row of one would else wait for a line of the image.
-class Bands {
-public:
-    Bands(std::int32_t width, std::int32_t height)
-        : height_(height),
-          rows_(std::max({std::int32_t{16}, near_pixels / width, (height + most_bands - 1) / most_bands})) {}
+/// Rows of the image that are drawn by one thread. Such a band is small enough for a near cache: small triangles come
+/// in any order, and each row of one would else wait for a line of the image.
+std::int32_t rows_of_band(const Image& image) {
+    constexpr std::int32_t near_pixels = 1 << 16, most_bands = 64;
+    return std::max({std::int32_t{16}, near_pixels / image.width, (image.height + most_bands - 1) / most_bands});
+}
 
-    std::size_t count() const { return static_cast<std::size_t>((height_ + rows_ - 1) / rows_); }
-    std::int32_t first_row(std::size_t band) const { return static_cast<std::int32_t>(band) * rows_; }
-    std::int32_t end_row(std::size_t band) const { return std::min(height_, first_row(band) + rows_); }
-    /// Of work: a row takes a fourth of the time of a point.
-    std::size_t pieces() const { return rows_of_triangles_ / 4; }
-    std::span<const std::uint32_t> triangles(std::size_t band) const { return lists_[band]; }
-
-    /// Takes the triangles begin, ..., end - 1.
-    void sort(std::span<const TexturedVertex> vertices, std::size_t begin, std::size_t end) {
-        met_.resize(end - begin);
-        rows_of_triangles_ = 0;
-        for (std::size_t k = begin; k < end; ++k) {
-            const auto [low, high] = std::minmax({vertices[3 * k].y, vertices[3 * k + 1].y, vertices[3 * k + 2].y});
-            const std::int32_t first = first_centre_above(low, height_), last = first_centre_above(high, height_);
-            rows_of_triangles_ += static_cast<std::size_t>(last - first);
-            met_[k - begin] = {first / rows_, first == last ? first / rows_ : (last - 1) / rows_ + 1};
-        }
-        lists_ = {count(), [&](const auto& add) {
-                      for (std::size_t k = begin; k < end; ++k) {
-                          for (std::int32_t b = met_[k - begin].first; b < met_[k - begin].end; ++b)
-                              add(static_cast<std::size_t>(b), static_cast<std::uint32_t>(k));
-                      }
-                  }};
-    }
-
-private:
-    static constexpr std::int32_t near_pixels = 1 << 16, most_bands = 64;
-    struct Met {
-        std::int32_t first, end;
-    };
-
-    std::int32_t height_, rows_;
-    std::size_t rows_of_triangles_ = 0;
-    std::vector<Met> met_;
-    base::Lists<std::uint32_t> lists_;  ///< triangles of each band
+/// Bands that a triangle meets: first, ..., end - 1.
+struct Met {
+    std::int32_t first, end;
 };
 
 }  // namespace
@@ -88,14 +55,33 @@ Result<std::size_t> draw_textured(Image& image, const Texture& texture, std::spa
     const ExactEnvironment environment;
     if (Status s = check_textured(image, texture, vertices, perspective); !s) return s.error();
     constexpr std::size_t together = 1 << 16;  // triangles: bounds the memory of the lists
-    Bands bands(image.width, image.height);
+    const std::int32_t rows = rows_of_band(image);
+    const auto bands = static_cast<std::size_t>((image.height + rows - 1) / rows);
+    std::vector<Met> met;
     std::atomic<std::size_t> drawn{0};
     for (std::size_t begin = 0; begin < vertices.size() / 3; begin += together) {
-        bands.sort(vertices, begin, std::min(vertices.size() / 3, begin + together));
-        base::in_arena(threads, bands.pieces(), [&] {
-            base::parallel_for(bands.count(), [&](std::size_t b) {
-                drawn += draw_triangles({image, texture, vertices, perspective, bands.first_row(b), bands.end_row(b)},
-                                        bands.triangles(b));
+        const std::size_t end = std::min(vertices.size() / 3, begin + together);
+        std::size_t rows_of_triangles = 0;
+        met.resize(end - begin);
+        for (std::size_t k = begin; k < end; ++k) {
+            const auto [low, high] = std::minmax({vertices[3 * k].y, vertices[3 * k + 1].y, vertices[3 * k + 2].y});
+            const std::int32_t first = first_centre_above(low, image.height);
+            const std::int32_t last = first_centre_above(high, image.height);
+            rows_of_triangles += static_cast<std::size_t>(last - first);
+            met[k - begin] = {first / rows, first == last ? first / rows : (last - 1) / rows + 1};
+        }
+        const base::Lists<std::uint32_t> triangles(bands, [&](const auto& add) {
+            for (std::size_t k = begin; k < end; ++k) {
+                for (std::int32_t b = met[k - begin].first; b < met[k - begin].end; ++b)
+                    add(static_cast<std::size_t>(b), static_cast<std::uint32_t>(k));
+            }
+        });
+        // Of work: a row takes a fourth of the time of a point.
+        base::in_arena(threads, rows_of_triangles / 4, [&] {
+            base::parallel_for(bands, [&](std::size_t b) {
+                const std::int32_t row = static_cast<std::int32_t>(b) * rows;
+                drawn += draw_triangles(
+                    {image, texture, vertices, perspective, row, std::min(image.height, row + rows)}, triangles[b]);
             });
         });
     }

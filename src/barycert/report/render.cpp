@@ -21,7 +21,9 @@ std::string_view word(FillMethod method) {
     return method == FillMethod::scanline ? "scanline" : method == FillMethod::bilinear ? "bilinear" : "barycentric";
 }
 std::string_view word(Interpolation interpolation) {
-    return std::array{"perspective", "affine", "projected-z"}[static_cast<std::size_t>(interpolation)];
+    return interpolation == Interpolation::affine        ? "affine"
+           : interpolation == Interpolation::projected_z ? "projected-z"
+                                                         : "perspective";
 }
 
 void tell_triangles(Document& d, const RenderCounts& n) {
@@ -46,7 +48,7 @@ void tell_pixels(Document& d, const RenderCounts& n, int samples) {
 void tell_colours(Document& d, const ColourRange& c) {
     std::string text =
         c.field + " " + (std::isnan(c.low) ? "none: no value is finite" : "from " + range_text(c.low, c.high));
-    if (c.without_value != 0) text += fmt::format("; {} triangles without a value, grey", c.without_value);
+    if (c.without_value != 0) text += fmt::format("; {} without a value, grey", c.without_value);
     d.figure("colours", c, "colours", text, c.without_value == 0 ? Tone::plain : Tone::strong);
 }
 

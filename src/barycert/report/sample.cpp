@@ -103,11 +103,10 @@ void tell_integrals(Document& d, const std::vector<FieldIntegral>& all) {
 void tell_mesh(Document& d, const SampleReport& s) {
     std::string cells = s.surface ? counted(s.cells, "triangle") : cells_text(s.cells, s.simplices, s.dimension);
     cells += ", " + counted(s.nodes, "node");
-    const char* const one = s.simplices != 0 ? "part is" : "cell is";
-    const char* const more = s.simplices != 0 ? "parts are" : "cells are";
+    const std::string one = s.simplices != 0 ? "part" : "cell";
     if (s.degenerate_cells != 0)
-        cells += fmt::format("; {} degenerate and own{} nothing", counted(s.degenerate_cells, one, more),
-                             s.degenerate_cells == 1 ? "s" : "");
+        cells += fmt::format("; {} nothing", counted(s.degenerate_cells, one + " is degenerate and owns",
+                                                     one + "s are degenerate and own"));
     d.name(s.surface ? "surface" : "mesh", cells, s.degenerate_cells == 0 ? Tone::plain : Tone::strong);
 }
 

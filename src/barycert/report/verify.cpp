@@ -158,24 +158,22 @@ bool is_wrong(const VerifyReport& s, std::size_t b) {
 /// Of a column in ulps, and in parts of its range; red: wrong.
 std::vector<Picture> error_pictures(const VerifyReport& s, std::size_t c) {
     const ValueErrors& e = s.verdicts.columns[c];
+    const std::uint64_t nan = e.missing + e.spurious;  // there, or where one is due
     const auto picture = [&](auto counts, const char* unit, const std::vector<Tick>& ticks, auto range, auto bad) {
         const auto last =
             std::find_if(counts.rbegin(), counts.rend() - 8, [](std::uint64_t n) { return n != 0; }).base();
         Axis x{.high = static_cast<double>(last - counts.begin()),
-               .title = fmt::format("error of {}, {}, logarithmic", s.columns[c], unit)};
+               .title = fmt::format("error of {}, {}, logarithmic{}", s.columns[c], unit,
+                                    nan == 0 ? "" : fmt::format("; without {} NaN", nan))};
         std::ranges::copy_if(ticks, std::back_inserter(x.ticks), [&](const Tick& t) { return t.at <= x.high; });
-        return histogram({.title = x.title,
-                          .x = x,
-                          .counts = {counts.begin(), last},
-                          .counted = "rows",
-                          .range = range,
-                          .bad = bad});
+        return histogram(
+            {.title = x.title, .x = x, .counts = {counts.begin(), last}, .counted = "row", .range = range, .bad = bad});
     };
     std::vector<Tick> ulps{{0.5, "0"}}, parts{{0.5, "0"}};
     for (int k = 1; k < 66; k += 5) ulps.push_back({1.0 + k, "2" + superscript(k - 1)});
     for (int k = 2; k < 22; k += 4) parts.push_back({1.0 * k, "10" + superscript(k - 19)});
     const auto in_ulps = [](std::size_t b) {
-        return b == 0 ? "no error" : fmt::format("2^{} ulps or more", static_cast<int>(b) - 2);
+        return b == 0 ? "no error" : b == 1 ? "below 1 ulp" : fmt::format("2^{} to 2^{} ulps", b - 2, b - 1);
     };
     const auto in_parts = [](std::size_t b) { return b == 0 ? "no error" : base::decade_label(b); };
     return {
@@ -193,11 +191,10 @@ void tell_errors(Document& d, const VerifyReport& s, std::size_t c) {
     d.add(Pictures{figures}, For::page);
     const auto some = [](std::uint64_t n) { return n != 0; };
     const auto& counts = e.by_relative;
-    const auto first = std::ranges::find_if(counts, some);
     const auto last = std::find_if(counts.rbegin(), counts.rend(), some).base();
     d.section(fmt::format("errors of {} in parts of its range", s.columns[c]), For::terminal, 3);
     const auto most = static_cast<double>(*std::ranges::max_element(counts));
-    for (auto at = first; at < last; ++at) {
+    for (auto at = std::ranges::find_if(counts, some); at < last; ++at) {
         const std::string label =
             at == counts.begin() ? "right" : base::decade_label(static_cast<std::size_t>(at - counts.begin()));
         const auto length = static_cast<std::size_t>(std::ceil(50 * (static_cast<double>(*at) / most)));
@@ -291,13 +288,13 @@ std::string verify_html(const VerifyReport& summary, const Environment& environm
     return page_text(verify_document(summary, environment));
 }
 
-std::string verify_plot(const VerifyReport& summary, const std::string& path) {
+Result<std::string> verify_plot(const VerifyReport& summary, const std::string& path) {
     const ExactEnvironment exact;
     std::vector<Picture> all;
     for (std::size_t c = 0; c < summary.columns.size(); ++c)
         if (summary.verdicts.columns[c].values != 0)
             std::ranges::move(error_pictures(summary, c), std::back_inserter(all));
-    return file_text(path, in_rows(all, summary.results)).value();
+    return rows_text(path, all, summary.results);
 }
 
 CiReport verify_outcomes(const VerifyReport& s, const Environment& environment) {

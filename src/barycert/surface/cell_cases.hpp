@@ -107,20 +107,14 @@ constexpr CellCase<n> cell_case(const std::array<std::uint8_t, n>& states) {
 
 /// By the states of the corners, corner i at bits 2 i and 2 i + 1.
 template <std::size_t n>
-using CellCases = std::array<CellCase<n>, std::size_t{1} << (2 * n)>;
-
-template <std::size_t n>
-constexpr CellCases<n> make_cell_cases() {
-    CellCases<n> all{};
+inline constexpr auto cell_cases = [] {
+    std::array<CellCase<n>, std::size_t{1} << (2 * n)> all{};
     for (std::size_t index = 0; index < all.size(); ++index) {
         std::array<std::uint8_t, n> states{};
         for (std::size_t i = 0; i < n; ++i) states[i] = static_cast<std::uint8_t>(index >> (2 * i) & 3);
         all[index] = cell_case<n>(states);
     }
     return all;
-}
-
-template <std::size_t n>
-inline constexpr CellCases<n> cell_cases = make_cell_cases<n>();
+}();
 
 }  // namespace barycert::surface

@@ -426,6 +426,8 @@ class Mesh(GivenBack):
         Raises:
             Error: no such field or option; what cannot be drawn.
         """
+        if options.get("points") is not None:
+            options["points"] = points_of(options["points"], self.dimension)[0]
         return Picture(lambda path: _core.plot(self._core, field, options, path))
 
     def plot_line(self, a: Any, b: Any, fields: Fields = None, *, count: int = 200, **options: Any) -> Picture:

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "barycert/audit/inverses/reference.hpp"
-#include "barycert/kernels/vectors.hpp"
+#include "barycert/base/vectors.hpp"
 
 namespace barycert {
 
@@ -21,8 +21,8 @@ struct Newton {
 };
 
 double distance(const double* a, const double* b) {
-    const auto v = kernels::at3(a, 0) - kernels::at3(b, 0);
-    return std::sqrt(dot(v, v));
+    const base::Vector3<double> v{a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+    return std::sqrt(base::dot(v, v));
 }
 
 /// The longest diagonal of a hexahedron; the longest edge of a wedge or pyramid.
@@ -65,8 +65,7 @@ InverseAnswer newton(const InverseCase& c, const Newton& by) {
         }
         for (std::size_t k = 0; k < d; ++k) columns[3][k] -= c.point[k];
         const auto determinant = [&](std::size_t r, std::size_t s, std::size_t t) {
-            const auto column = [&](std::size_t j) { return kernels::at3(columns[j].data(), 0); };
-            return kernels::determinant(column(r), column(s), column(t));
+            return base::dot(columns[r], base::cross(columns[s], columns[t]));
         };
         const double whole = determinant(0, 1, 2);
         if (whole == 0 || std::fabs(whole) < floor) return {};

@@ -39,7 +39,8 @@ Telling compare_figures(const KernelStatistics& sound, const KernelStatistics& m
 MutantResult judged(const Mutant& m, const AuditReport& report) {
     MutantResult r{m, 0, {}};
     const auto result_of = [&](const Kernel& of) {
-        return std::ranges::find(report.kernels, of.name, [](const KernelResult& k) { return k.kernel.name; });
+        return std::ranges::find(report.kernels, of.name,
+                                 [](const KernelResult& k) -> const std::string& { return k.kernel.name; });
     };
     const auto mutant = result_of(m.kernel), sound = result_of(m.sound), none = report.kernels.end();
     if (mutant == none || sound == none) return r;

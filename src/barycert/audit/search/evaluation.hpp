@@ -91,9 +91,10 @@ inline double badness(std::size_t reason, const Evaluation& e) {
 /// Where a walk towards that reason stands: a case that shows it is above one that does not; one that does not is the
 /// higher the nearer it seems to be.
 struct Height {
-    double shown = -1;                                                ///< badness
-    double near = 0;                                                  ///< if it does not show
-    friend auto operator<=>(const Height&, const Height&) = default;  // NOLINT(modernize-use-nullptr): it has none
+    double shown = -1;  ///< badness
+    double near = 0;    ///< if it does not show
+    friend bool operator==(const Height&, const Height&) = default;
+    friend bool operator<(Height a, Height b) { return std::pair(a.shown, a.near) < std::pair(b.shown, b.near); }
 };
 
 inline Height height(std::size_t reason, const Evaluation& e) {

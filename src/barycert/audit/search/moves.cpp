@@ -16,6 +16,10 @@ std::int64_t small_power(base::Random& random, int limit) {
     return std::int64_t{1} << e;
 }
 
+double with_sign(base::Random& random, double x) {
+    return random.coin() ? x : -x;
+}
+
 /// A number with that exponent and a significand of `bits` random bits.
 double drawn(base::Random& random, int exponent, int bits) {
     const double m = 1 + std::ldexp(std::floor(std::ldexp(random.unit(), bits - 1)), 1 - bits);
@@ -79,8 +83,10 @@ void take_from_another(Case& c, base::Random& random) {
 void point_between(Case& c, base::Random& random) {
     const int n = vertex_count(c.simplex);
     const int first = pick(random, n), size = 1 + pick(random, n);
-    std::array<double, 4> w = random_weights(random, size);
-    std::rotate(w.begin(), w.begin() + (n - first), w.begin() + n);
+    const std::array<double, 4> drawn_weights = random_weights(random, size);
+    std::array<double, 4> w{};
+    for (int i = 0; i < size; ++i)
+        w[static_cast<std::size_t>((first + i) % n)] = drawn_weights[static_cast<std::size_t>(i)];
     c.point = combination(c, w, n);
 }
 
@@ -106,7 +112,7 @@ Case patterned_case(Simplex simplex, bool perspective, const ExponentRange& rang
                                   : own;
         const double x = drawn(random, e, bits);
         const bool zero = pick(random, 16) == 0;
-        const double signed_x = random.coin() ? x : -x;
+        const double signed_x = with_sign(random, x);
         coordinate(c, k) = is_depth(c, k) ? x : zero ? 0 : signed_x;
     }
     const std::array<double, 3> drawn_point = c.point;
@@ -177,8 +183,8 @@ void jump_to_zero(Case& c, const Evaluation& at, base::Random& random, const Exp
     const bool of_point = !zero.of_cell && random.coin();
     const int axis = pick(random, space_dimension(c.simplex));
     zero.coordinate = (of_point ? vertex_numbers(c) : c.stride() * vertex) + axis;
-    const double first = first_step(c, zero.coordinate);
-    to_zero(c, at, zero, random.coin() ? first : -first, range, ask);
+    const double first = with_sign(random, first_step(c, zero.coordinate));
+    to_zero(c, at, zero, first, range, ask);
     const std::int64_t ulps = small_power(random, 6) - 1;
     coordinate(c, zero.coordinate) = moved_by_ulps(c, zero.coordinate, random.coin() ? ulps : -ulps);
 }

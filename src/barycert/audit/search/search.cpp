@@ -223,12 +223,14 @@ Result<SearchReport> search_worst_case(const SearchOptions& o) {
     const ExactEnvironment exact;
     if (const Status ok = check(o); !ok) return ok.error();
     SearchReport report;
-    static_cast<AuditRun&>(report) = {measure_environment(), o.seed, 0, base::threads_for(o.threads)};
+    report.environment = measure_environment();
     if (const Status ok = check_environment(report.environment); !ok) return ok.error();
     report.kernel = o.kernel;
+    report.seed = o.seed;
     report.steps_asked = o.steps;
     report.min_exponent = o.min_exponent;
     report.max_exponent = o.max_exponent;
+    report.threads = base::threads_for(o.threads);
 
     using Clock = std::chrono::steady_clock;
     const auto start = Clock::now();

@@ -288,11 +288,13 @@ double edges_through(const SurfaceCase& c) {
 double separating_axes(const SurfaceCase& c) {
     const std::array<Triangle, 2> both{corners_from(c.triangles[0]), corners_from(c.triangles[1])};
     const auto apart = [&](V axis) {
-        const auto extent = [&](const Triangle& t) {
-            return std::minmax({dot(axis, t[0]), dot(axis, t[1]), dot(axis, t[2])});
-        };
-        const auto s = extent(both[0]), t = extent(both[1]);
-        return s.second < t.first || t.second < s.first;
+        std::array<double, 2> low{}, high{};
+        for (std::size_t i = 0; i < 2; ++i) {
+            const double x = dot(axis, both[i][0]), y = dot(axis, both[i][1]), z = dot(axis, both[i][2]);
+            low[i] = std::min({x, y, z});
+            high[i] = std::max({x, y, z});
+        }
+        return high[0] < low[1] || high[1] < low[0];
     };
     for (const Triangle& t : both) {
         if (apart(normal_of(t))) return 0;
@@ -308,9 +310,11 @@ double separating_axes(const SurfaceCase& c) {
 
 /// The check of surfaces takes common nodes for granted.
 double by_check(const SurfaceCase& c) {
-    const double *const s = c.triangles[0].data(), *const t = c.triangles[1].data();
-    for (int k = 0; k < 9; ++k) {
-        if (std::equal(s + k / 3 * 3, s + k / 3 * 3 + 3, t + k % 3 * 3)) return 1;
+    const auto node = [&](std::size_t i, std::size_t k) {
+        return std::array{c.triangles[i][3 * k], c.triangles[i][3 * k + 1], c.triangles[i][3 * k + 2]};
+    };
+    for (std::size_t k = 0; k < 9; ++k) {
+        if (node(0, k / 3) == node(1, k % 3)) return 1;
     }
     return check_surface(surface_of(c), {.threads = 1}).find(DefectKind::self_intersection) != nullptr;
 }

@@ -68,7 +68,7 @@ std::vector<CellPair> find_intersections(SurfaceParts& s) {
         for (const DefectKind kind : {DefectKind::self_intersection, DefectKind::duplicate_triangle})
             s.defects[kind].at_least = s.defects[kind].count != 0;
     }
-    for (HangingNode& h : hanging) {
+    for (HangingNode& h : hanging) {  // of triangles that are not degenerate: now of the surface
         h.node = s.triangles.node(h.node);
         for (Mesh::Index& n : h.face) n = n < 0 ? n : s.triangles.node(n);
     }

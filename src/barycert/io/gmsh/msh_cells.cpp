@@ -205,9 +205,8 @@ void drop_repeats(MshCells& cells, std::size_t corners, std::size_t mids) {
     const std::size_t count = cells.tags.size();
     Mesh::Shapes& shapes = cells.mesh.shapes;
     const auto nodes_of = [&](std::size_t i) {
-        if (shapes.types.empty()) return std::span(&cells.mesh.cells[i * corners], corners);
-        const auto begin = i == 0 ? 0 : shapes.ends[i - 1];
-        return std::span(shapes.nodes.data() + begin, shapes.nodes.data() + shapes.ends[i]);
+        if (shapes.types.empty()) return std::span<const Mesh::Index>(&cells.mesh.cells[i * corners], corners);
+        return shapes.nodes_of(i);
     };
     const auto repeats = [&](std::size_t i) {
         return std::ranges::equal(nodes_of(i), nodes_of(i - 1)) && cells.geometrical[i] == cells.geometrical[i - 1] &&

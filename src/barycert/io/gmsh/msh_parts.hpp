@@ -13,7 +13,10 @@ struct ElementType {
     int order;
     std::size_t nodes;
 
-    int dimension() const { return std::array{0, 1, 2, 2, 3, 3, 3, 3}[static_cast<std::size_t>(family)]; }
+    int dimension() const {
+        using enum ElementFamily;
+        return family == point ? 0 : family == line ? 1 : family <= quadrangle ? 2 : 3;
+    }
 };
 
 const ElementType* element_type(std::int64_t number);

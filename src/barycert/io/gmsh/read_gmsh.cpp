@@ -109,7 +109,8 @@ void fill_from_entities(const MshFile& file, const MshElements& elements, const 
     for (const ElementBlock& block : elements.blocks) {
         if (cells.left_out.contains(block.type) || block.run.count == 0) continue;
         const auto found = groups.entities.find({cells.mesh.dimension, block.entity});
-        const MshEntity entity = found == groups.entities.end() ? MshEntity{{}, block.entity} : found->second;
+        const MshEntity alone{{}, block.entity};
+        const MshEntity& entity = found == groups.entities.end() ? alone : found->second;
         counts.push_back(block.run.count);
         cells.physical.push_back(entity.physical.empty() ? 0 : static_cast<double>(entity.physical.front()));
         cells.geometrical.push_back(static_cast<double>(entity.whole));

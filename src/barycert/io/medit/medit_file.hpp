@@ -26,12 +26,12 @@ enum class MeditKind : std::uint8_t {
 using enum MeditKind;
 
 struct MeditKeyword {
+    int code;  ///< in binary files
+    std::string_view name;
     MeditKind kind = MeditKind::other;
     int dimension = 0;
-    std::uint8_t type = 0;       ///< of a cell by its corners, VTK's
-    std::string_view name = {};  ///< in keyword_lists a list of them
-    int code = 0;                ///< in binary files
-    std::size_t nodes = 0;       ///< of a cell
+    std::uint8_t type = 0;  ///< of a cell by its corners, VTK's
+    std::size_t nodes = 0;  ///< of a cell
 };
 
 struct MeditSection {
@@ -50,8 +50,15 @@ struct MeditRows {
 };
 
 /// Keywords of one kind, dimension and type, each behind its code; those of cells before the number of their nodes.
+struct KeywordList {
+    MeditKind kind;
+    int dimension;
+    std::uint8_t type;  ///< of cells by their corners, VTK's
+    std::string_view words;
+};
+
 // Codes of libMeshb's documentation. What is not named here is left out in any case. Some programs write Hexaedra.
-inline constexpr std::array<MeditKeyword, 12> keyword_lists{
+inline constexpr std::array<KeywordList, 12> keyword_lists{
     {{vertices, 0, 0, "4 Vertices"},
      {cells, 1, 3, "5 Edges 2 25 EdgesP2 3 92 EdgesP3 4 93 EdgesP4 5"},
      {cells, 2, 5, "6 Triangles 3 24 TrianglesP2 6 90 TrianglesP3 10 91 TrianglesP4 15"},
@@ -72,14 +79,10 @@ inline constexpr std::array<MeditKeyword, 12> keyword_lists{
 inline const std::vector<MeditKeyword>& keywords() {
     static const std::vector<MeditKeyword> all = [] {
         std::vector<MeditKeyword> found;
-        for (MeditKeyword one : keyword_lists) {
-            std::string_view words = one.name;
-            while (const auto code = parse_count(next_word(words))) {
-                one.code = static_cast<int>(*code);
-                one.name = next_word(words);
-                if (one.kind == cells) one.nodes = *parse_count(next_word(words));
-                found.push_back(one);
-            }
+        for (auto [kind, dimension, type, words] : keyword_lists) {
+            while (const auto code = parse_count(next_word(words)))
+                found.push_back({static_cast<int>(*code), next_word(words), kind, dimension, type,
+                                 kind == cells ? *parse_count(next_word(words)) : 0});
         }
         return found;
     }();

@@ -30,8 +30,7 @@ const char* fault_of(const Surface& s) {
 }
 
 /// The head, then points and cells: in text without fields; in binary, with them, segments at z = 0.
-Result<SurfaceFile> write_rows(const Surface& s, const std::string& path, bool binary, const std::string& head,
-                               SurfaceFile result) {
+Status write_file(const Surface& s, const std::string& path, bool binary, const std::string& head) {
     RowOutput file(path, binary);
     file.text(head);
     const bool lines = s.dimension == 2;
@@ -48,8 +47,7 @@ Result<SurfaceFile> write_rows(const Surface& s, const std::string& path, bool b
         if (binary) file.row_of(s.cell_fields, c);
         file.end_row();
     }
-    if (Status written = file.commit(); !written) return written.error();
-    return result;
+    return file.commit();
 }
 
 /// Text; triangles without fields. Error: segments.
@@ -60,7 +58,8 @@ Result<SurfaceFile> write_off(const Surface& s, const std::string& path) {
     for (const auto* const fields : {&s.point_fields, &s.cell_fields})
         std::ranges::transform(*fields, std::back_inserter(result.left_out), &Field::name);
     const std::string counts = std::to_string(s.point_count()) + ' ' + std::to_string(s.cell_count());
-    return write_rows(s, path, false, "OFF\n" + counts + " 0\n", std::move(result));
+    if (Status written = write_file(s, path, false, "OFF\n" + counts + " 0\n"); !written) return written.error();
+    return result;
 }
 
 // PLY files. G. Turk, "The PLY Polygon File Format", 1994.
@@ -95,7 +94,8 @@ Result<SurfaceFile> write_ply(const Surface& s, const std::string& path) {
     head += std::string("element ") + (lines ? "edge " : "face ") + std::to_string(s.cell_count()) + '\n';
     head += lines ? "property int vertex1\nproperty int vertex2\n" : "property list uchar int vertex_indices\n";
     head += properties_of(s.cell_fields, {"vertex1", "vertex2", "vertex_indices"}, result.renamed);
-    return write_rows(s, path, true, head + "end_header\n", std::move(result));
+    if (Status written = write_file(s, path, true, head + "end_header\n"); !written) return written.error();
+    return result;
 }
 
 /// VTK's PolyData: polygons, or lines at z = 0; fields as arrays of doubles; the cells of the mesh as the array "cell",

@@ -328,7 +328,8 @@ private:
 
     void read_types() {
         if (!grid_.types.empty()) fail("a second section CELL_TYPES", "one", "two");
-        take_numbers("the cell types", NumberType::int32, take_count("the number of cell types"), grid_.types);
+        const std::size_t count = take_count("the number of cell types");
+        take_numbers("the cell types", NumberType::int32, count, grid_.types);
     }
 
     std::size_t cell_count() const {

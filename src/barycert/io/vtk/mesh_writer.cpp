@@ -198,8 +198,8 @@ private:
             if (ends[cell] >= 0) {
                 add(stream.begin() + std::exchange(in_stream, ends[cell]), stream.begin() + ends[cell]);
             } else {
-                add(shapes.nodes.begin() + (cell == 0 ? 0 : shapes.ends[cell - 1]),
-                    shapes.nodes.begin() + shapes.ends[cell]);
+                const std::span nodes = shapes.nodes_of(cell);
+                add(nodes.begin(), nodes.end());
             }
         }
         file_.write("CELLS " + std::to_string(shapes.count()) + " " + std::to_string(numbers.size()) + "\n");

@@ -127,6 +127,7 @@ bool convert_number(From from, To& to) {
 /// The bytes of these numbers, as they stand in memory.
 template <class Numbers>
 std::string_view bytes_of(const Numbers& numbers) {
+    static_assert(std::is_trivially_copyable_v<std::remove_cvref_t<decltype(*std::data(numbers))>>);
     return {reinterpret_cast<const char*>(std::data(numbers)), std::size(numbers) * sizeof(*std::data(numbers))};
 }
 

@@ -115,7 +115,8 @@ void MappedCells::add_curved(const double* point, std::vector<Location>& found) 
     curved_tree_->for_each(box, [&](std::uint32_t i) {
         const auto whole = static_cast<std::size_t>(curved_[i]);
         const iso::InSimplex in = in_curved(whole, point);
-        if (in.inside) found.push_back({first_part(whole), mesh::feature_of_whole(0, in.zeros, mesh_.dimension)});
+        constexpr std::uint16_t inside = 0;  // the cell is one part: nothing of its boundary
+        if (in.inside) found.push_back({first_part(whole), mesh::feature_of_whole(inside, in.zeros, mesh_.dimension)});
         return true;
     });
 }
@@ -255,7 +256,7 @@ void MappedCells::arrange(const CellIndex& index) {
             const std::uint8_t type = mesh_.shapes.types[own];
             for (std::size_t i = 0; i < 8; ++i)
                 lane_nodes_[static_cast<std::size_t>(next)].at[i] =
-                    place_of_node[static_cast<std::size_t>(shape_nodes(own)[corners[type - 11U][i]])];
+                    place_of_node[static_cast<std::size_t>(mesh_.shapes.nodes_of(own)[corners[type - 11U][i]])];
             number[own] = 2 * next++ + (type == 13 ? 1 : 0);
         }
         lane_cell_[place] = number[own];

@@ -120,9 +120,6 @@ private:
     Mesh::Index first_part(std::size_t whole) const {
         return has_shapes() ? mesh_.shapes.parts[whole] : static_cast<Mesh::Index>(whole);
     }
-    const Mesh::Index* shape_nodes(std::size_t whole) const {
-        return mesh_.shapes.nodes.data() + (whole == 0 ? 0 : mesh_.shapes.ends[whole - 1]);
-    }
     void arrange(const CellIndex& index);
     bool add_product(Place place, const NodeValues& values, Batch& to) const;
     bool add_tetrahedron(std::size_t whole, const PointRecord& point, const std::vector<const Field*>& fields,

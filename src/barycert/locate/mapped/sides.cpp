@@ -57,7 +57,7 @@ InSide look(const std::array<const double*, 4>& n, const double* p) {
 
 template <class Use>
 void MappedCells::for_sides(std::size_t shape, Use use) const {
-    const Mesh::Index* const nodes = shape_nodes(shape);
+    const std::span nodes = mesh_.shapes.nodes_of(shape);
     unsigned bit = 1;
     for (const std::vector<Mesh::Index>& ring : mesh::rings_of(mesh_.shapes.types[shape])) {
         if (ring.size() != 4) continue;

@@ -57,10 +57,9 @@ Listing statistics_table(const std::vector<Known>& all, bool kernels) {
     if (kernels) table.columns.push_back(right("ns", 5));
     for (const Known& k : all) {
         const KernelStatistics& s = *k.statistics;
-        const Share wrong{s.wrong_cases, s.cases};
         Row row{.cells = {k.name,
                           {kernels ? std::to_string(s.cases) : brief_count(s.cases), static_cast<double>(s.cases)},
-                          share_cell(wrong, true),
+                          s.cases == 0 ? Cell("not run", -1) : share_cell({s.wrong_cases, s.cases}, true),
                           share_cell(inside_called_outside(s)),
                           share_cell(outside_called_inside(s)),
                           share_cell(unanswered(s)),
@@ -68,7 +67,6 @@ Listing statistics_table(const std::vector<Known>& all, bool kernels) {
                           number_cell(s.errors.worst.value)},
                 .tone = (kernels ? perfect(s) : s.cases != 0 && s.wrong_cases == 0) ? Tone::good : Tone::plain,
                 .tip = k.tip};
-        if (s.cases == 0) row.cells[2] = {"not run", -1};
         if (kernels) row.cells.push_back(number_cell(k.meshes));
         row.cells.push_back(number_cell(s.weight_ulp.value));
         if (kernels) row.cells.emplace_back(brief_time(k.ns), k.ns);
@@ -153,16 +151,13 @@ void tell_families(Document& d, const AuditReport& r) {
           Tone::soft);
 }
 
-/// `folds`: all but the first, on a page.
-void tell_witnesses_of(Document& d, const AuditReport& r, const KernelResult& k, const TerminalStyle& style,
-                       bool folds) {
+/// Of several kernels all but the first of each fold, on a page.
+void tell_witnesses_of(Document& d, const AuditReport& r, const KernelResult& k, const TerminalStyle& style) {
     if (k.witnesses.empty() && k.total.not_run == 0) d.say("No witness: every weight and value is correctly rounded.");
     for (const Witness& w : k.witnesses) {
-        Item item{.title = w.reason + ": " + finding_sentence(k, w), .lines = {{place_of(w) + ": " + shows(w)}}};
-        if (std::string replay = replay_command(r, k, w, style); !replay.empty())
-            item.lines.push_back({std::move(replay), true});
-        item.folds = folds && &w != &k.witnesses.front();
-        d.add(std::move(item));
+        d.add(Item{.title = w.reason + ": " + finding_sentence(k, w),
+                   .lines = {{place_of(w) + ": " + shows(w)}, {replay_command(r, k, w, style), true}},
+                   .folds = r.kernels.size() > 1 && &w != &k.witnesses.front()});
     }
 }
 
@@ -176,7 +171,7 @@ void tell_witnesses(Document& d, const AuditReport& r, const TerminalStyle& styl
         if (!k.kernel.fails.empty()) d.say(k.kernel.fails, Tone::soft);
         if (!k.kernel.note.empty()) d.say(k.kernel.note);
         if (k.total.not_run != 0) d.say(fmt::format("Given up: {} cases were not run.", k.total.not_run));
-        tell_witnesses_of(d, r, k, style, true);
+        tell_witnesses_of(d, r, k, style);
     }
 }
 
@@ -199,7 +194,7 @@ void tell_kernel(Document& d, const AuditReport& r, const TerminalStyle& style) 
     d.section(k.kernel.raised != nullptr ? "Worst case of each finding:"
                                          : "Worst case of each finding, and the command that replays it:");
     if (!incidents(k.total).empty()) d.say(incidents(k.total), Tone::bad);
-    tell_witnesses_of(d, r, k, style, false);
+    tell_witnesses_of(d, r, k, style);
 }
 
 void tell_kernels(Document& d, const AuditReport& r) {
@@ -271,8 +266,7 @@ void tell_wide(Document& d, const AuditReport& r, const TerminalStyle& style) {
                   .text = w != nullptr           ? fmt::format(": {} in {} ({})", w->reason, place_of(*w), shows(*w))
                           : k.total.not_run != 0 ? ": no witness"
                                                  : ": no witness, every weight and value is correctly rounded"};
-        const std::string replay = w == nullptr ? "" : replay_command(r, k, *w, style);
-        if (!replay.empty()) item.lines.push_back({replay, true});
+        if (w != nullptr) item.lines.push_back({replay_command(r, k, *w, style), true});
         d.add(std::move(item));
     }
 }

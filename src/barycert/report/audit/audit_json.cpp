@@ -69,17 +69,9 @@ std::string meaning_of(const std::string& rule) {
     return rule + " of a kernel, over the cases of its families";
 }
 
-/// What is worse in a family than in the baseline, and the first such figure; empty if nothing is.
-std::pair<std::string, std::string> worse_in(const BaselineComparison& comparison, const std::string& kernel,
-                                             const std::string& family) {
-    std::string message, first;
-    for (const BaselineChange& c : comparison.worse) {
-        if (c.kernel != kernel || c.family != family) continue;
-        if (first.empty()) first = c.figure;
-        message += fmt::format("{}{} {} -> {}", message.empty() ? "worse than the baseline: " : ", ", c.figure,
-                               base::shortest(c.before), base::shortest(c.after));
-    }
-    return {message, first};
+/// "wrong_cases 3 -> 5".
+std::string change_text(const BaselineChange& c) {
+    return fmt::format("{} {} -> {}", c.figure, base::shortest(c.before), base::shortest(c.after));
 }
 
 }  // namespace
@@ -140,9 +132,15 @@ CiReport audit_outcomes(const AuditReport& report, const std::vector<Threshold>&
         }
         for (std::size_t i = 0; comparison != nullptr && i < k.families.size(); ++i) {
             const std::string& family = report.families[k.families[i].family].name;
-            const auto [message, first] = worse_in(*comparison, k.kernel.name, family);
-            add("baseline, " + family, first.empty() ? "wrong_cases" : first,
-                first.empty() ? State::passed : State::failed, message);
+            std::vector<BaselineChange> worse;
+            std::ranges::copy_if(comparison->worse, std::back_inserter(worse), [&](const BaselineChange& c) {
+                return c.kernel == k.kernel.name && c.family == family;
+            });
+            if (worse.empty())
+                add("baseline, " + family, "wrong_cases", State::passed, "");
+            else
+                add("baseline, " + family, worse.front().figure, State::failed,
+                    "worse than the baseline: " + joined(worse, ", ", change_text));
         }
     }
     return ci;
@@ -153,11 +151,8 @@ std::string baseline_text(const BaselineComparison& comparison, const std::strin
     constexpr std::size_t most = 20;
     std::string out;
     const auto changes = [&](const char* word, const std::vector<BaselineChange>& list) {
-        for (std::size_t i = 0; i < std::min(most, list.size()); ++i) {
-            const BaselineChange& c = list[i];
-            out += fmt::format("{}: {} in {}: {} {} -> {}\n", word, c.kernel, c.family, c.figure,
-                               base::shortest(c.before), base::shortest(c.after));
-        }
+        for (const BaselineChange& c : std::span(list).first(std::min(most, list.size())))
+            out += fmt::format("{}: {} in {}: {}\n", word, c.kernel, c.family, change_text(c));
         if (list.size() > most) out += fmt::format("{}: and {} more\n", word, list.size() - most);
     };
     changes("worse", comparison.worse);

@@ -114,7 +114,10 @@ std::string swatch(const io::Colour& c, std::string_view text) {
     return fmt::format("<span><i style=\"background:#{:02x}{:02x}{:02x}\"></i>{}</span> ", c[0], c[1], c[2], text);
 }
 
-using SignColour = std::pair<io::Colour, std::string_view>;
+struct SignColour {
+    io::Colour colour;
+    std::string_view text;
+};
 /// Of the signs -1, 0, 1 and of no answer.
 constexpr std::array<SignColour, 4> sign_colours{{{{0xe6, 0x9f, 0x00}, "negative"},
                                                   {{0xff, 0xff, 0xff}, "zero"},
@@ -125,12 +128,10 @@ constexpr std::array<SignColour, 4> sign_colours{{{{0xe6, 0x9f, 0x00}, "negative
 std::string png_of(const SignPicture& p) {
     constexpr std::size_t side = SignPicture::side;
     std::vector<std::uint8_t> pixels(side * side);
-    for (std::size_t row = 0; row < side; ++row) {
-        for (std::size_t i = 0; i < side; ++i)
-            pixels[row * side + i] = static_cast<std::uint8_t>(p.signs[(side - 1 - row) * side + i] + 1);
-    }
+    for (std::size_t i = 0; i < pixels.size(); ++i)
+        pixels[i] = static_cast<std::uint8_t>(p.signs[(side - 1 - i / side) * side + i % side] + 1);
     std::array<io::Colour, sign_colours.size()> colours{};
-    std::ranges::transform(sign_colours, colours.begin(), &SignColour::first);
+    std::ranges::transform(sign_colours, colours.begin(), &SignColour::colour);
     return io::indexed_png(side, pixels, colours).value();
 }
 

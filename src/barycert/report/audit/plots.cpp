@@ -122,8 +122,7 @@ std::string drift_plot(const DriftReport& report) {
     y.low = no_error;
     y.high = 4;
     std::vector<Curve> curves;
-    for (const DriftCurve& of : report.curves) {
-        if (curves.size() == max_curves) break;
+    for (const DriftCurve& of : std::span(report.curves).first(std::min(report.curves.size(), max_curves))) {
         Curve& curve = curves.emplace_back(Curve{short_name(of.kernel)});
         for (const DriftPoint& p : of.points) {
             x.low = std::min(x.low, std::log2(p.size));

@@ -200,7 +200,15 @@ Document inverses_document(const InverseAudit& audit) {
 
 AUDIT_TEXT_AND_JSON(surfaces, SurfaceAudit)
 AUDIT_TEXT_AND_JSON(inverses, InverseAudit)
-AUDIT_PAGE(surfaces, SurfaceAudit)
-AUDIT_PAGE(inverses, InverseAudit)
+
+std::string surfaces_html(const SurfaceAudit& audit) {
+    const ExactEnvironment environment;
+    return page_text(surfaces_document(audit));
+}
+
+std::string inverses_html(const InverseAudit& audit) {
+    const ExactEnvironment environment;
+    return page_text(inverses_document(audit));
+}
 
 }  // namespace barycert

@@ -12,8 +12,7 @@ namespace {
 /// The case in decimal, a vertex a line, and how to see what kernels make of it.
 Item plain_case(const SearchReport& report, const SearchFind& f, const TerminalStyle& style) {
     const Case& c = f.plain.c;
-    Item item{.title = f.reason};
-    if (!f.plain.detail.empty()) item.lines.push_back({f.plain.detail});
+    Item item{.title = f.reason, .lines = {{f.plain.detail}}};
     for (int i = 0; i < vertex_count(c.simplex); ++i)
         item.lines.push_back({fmt::format("v{}  {}", i, coordinates(c.vertices.data() + c.stride() * i, c.stride()))});
     item.lines.push_back({"p   " + coordinates(c.point, space_dimension(c.simplex))});

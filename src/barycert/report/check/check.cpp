@@ -181,12 +181,8 @@ void tell_whole_mesh(Document& d, const CheckReport& r) {
     const BoundaryReport& b = r.boundary;
     const std::string size = r.dimension == 2 ? "area" : "volume";
     d.part("Cells and boundary");
-    d.add(Named{"mesh",
-                {(r.shapes != 0      ? cells_text(r)
-                  : r.dimension == 2 ? counted(r.cells, "triangle")
-                                     : counted(r.cells, "tetrahedron", "tetrahedra")) +
-                 ", " + counted(r.nodes, "node")}},
-          For::page);
+    const std::string cells = r.shapes != 0 ? cells_text(r) : simplices_text(r.cells, r.dimension);
+    d.add(Named{"mesh", {cells + ", " + counted(r.nodes, "node")}}, For::page);
     d.name("cells", fmt::format("{} positive, {} negative, {} degenerate, by the exact sign of the {}", r.positive,
                                 r.negative, r.degenerate, size));
     std::string domain = domain_text(r);

@@ -41,10 +41,8 @@ Scene scene_of(const Mesh& mesh, const Exhibit& e) {
     }
     const Normalised normalised(mesh.dimension, at);
     scene.points = normalised.points();
-    if (e.contact != nullptr) {
-        const std::array<double, 3>& w = e.contact->common.point;
-        if (base::all_finite(w)) scene.common = normalised.place(w.data());
-    }
+    if (e.contact != nullptr && base::all_finite(e.contact->common.point))
+        scene.common = normalised.place(e.contact->common.point.data());
     return scene;
 }
 
@@ -168,10 +166,9 @@ std::string facts(const CheckReport& r, const Mesh& mesh, Mesh::Index cell, std:
                        : m.volume[c] == 0 && m.orientation[c] != 0 ? "too small for a double"
                                                                    : measure_text(m.volume[c]));
     const double kappa = m.condition[c];
-    out += fmt::format("condition {}{}, aspect {}, radius / edge {}</p>\n", measure_text(kappa),
-                       std::isfinite(kappa) ? fmt::format(" ({:.1f} bits)", std::max(0.0, std::log2(kappa))) : "",
-                       measure_text(m.aspect[c]), measure_text(m.radius_edge[c]));
-    return out;
+    return out + fmt::format("condition {}{}, aspect {}, radius / edge {}</p>\n", measure_text(kappa),
+                             std::isfinite(kappa) ? fmt::format(" ({:.1f} bits)", std::max(0.0, std::log2(kappa))) : "",
+                             measure_text(m.aspect[c]), measure_text(m.radius_edge[c]));
 }
 
 /// The cell from two sides at one scale, with the numbers of its nodes; what is known of it. `number`: in the map.

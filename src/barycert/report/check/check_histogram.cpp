@@ -172,13 +172,15 @@ std::string histograms(const CheckReport& r) {
 
 namespace barycert {
 
-std::string check_plot(const CheckReport& report, const std::string& name, const std::string& path) {
+Result<std::string> check_plot(const CheckReport& report, const std::string& name, const std::string& path) {
     const ExactEnvironment environment;
     std::vector<draw::Picture> all;
     for (const report::Measure& m : report::measures_of(report))
-        if (const report::Bins h = report::bins_of(m.values, m.rule); !report::is_empty(h))
+        if (const report::Bins h = report::bins_of(m.values, m.rule); !report::is_empty(h)) {
             all.push_back(report::chart(h, m));
-    return draw::file_text(path, draw::in_rows(all, name)).value();
+            all.back().text({58, 14}, report::counted_apart(h, m), "small");
+        }
+    return draw::rows_text(path, all, name);
 }
 
 }  // namespace barycert

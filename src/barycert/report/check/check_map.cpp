@@ -124,7 +124,7 @@ std::string picture_of(const CheckReport& r, const Mesh& mesh, const std::vector
         scene.figure.surfaces.push_back({.points = cells->points, .triangles = cells->cells, .colour = colour});
     }
     FigureCounts counts;
-    const Result<Picture> still = laid_out(scene.figure, 1, counts);
+    const Result<Picture> still = laid_out(scene.figure, Form::image, counts);
     std::string markup = still ? svg_markup(*still) : "";
     constexpr std::size_t most_triangles = 200000;
     turns = scene.surfaces.front().surface->cell_count() <= most_triangles;
@@ -151,7 +151,8 @@ std::string exhibit_map(const CheckReport& r, const Mesh& mesh, const std::vecto
     std::string drawn = turns || picture.empty() ? "" : " The mesh is too large to turn on a page.";
     const bool defects = exhibits.front().defect, others = !exhibits.back().defect;
     if (defects) drawn += " Red: cells with defects.";
-    if (others) drawn += " Blue: the cells with the smallest angles, which need not be wrong; some lie inside.";
+    if (others) drawn += " Blue: the cells with the smallest angles, which need not be wrong";
+    if (others) drawn += mesh.dimension == 3 ? ", and may lie inside." : ".";
     return fmt::format(
         "<div class=\"map\">{}<div>{}</div></div>\n<p class=\"small\">The box of the cells: {}.{} Those with numbers "
         "are drawn below.</p>\n",

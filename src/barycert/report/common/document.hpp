@@ -116,9 +116,9 @@ struct Item {
         }
     };
     struct Line {
-        std::string text = {};
-        bool command = false;  ///< to be copied
-        Places places = {};    ///< below the text
+        std::string text = {};  ///< none is shown if it is empty
+        bool command = false;   ///< to be copied
+        Places places = {};     ///< below the text
     };
     std::string title = {};
     std::string text = {};  ///< in the title's line
@@ -203,11 +203,6 @@ std::string page_text(const Document& document);
     std::string name##_json(const Report& report, const Environment& of) { \
         const ExactEnvironment environment;                                \
         return base::json_text(name##_document(report, of).data, 2);       \
-    }
-#define AUDIT_PAGE(name, Report)                    \
-    std::string name##_html(const Report& report) { \
-        const ExactEnvironment environment;         \
-        return page_text(name##_document(report));  \
     }
 
 /// For sentences that hold of straight sides alone; empty where these are the mesh's own.

@@ -50,13 +50,14 @@ std::string coordinates(const auto& all, int count, std::string (*text)(double) 
     return joined(std::span(&all[0], static_cast<std::size_t>(count)), between, text);
 }
 
+/// "48 tetrahedra"; in the plane triangles.
+inline std::string simplices_text(std::uint64_t n, int dimension) {
+    return dimension == 2 ? counted(n, "triangle") : counted(n, "tetrahedron", "tetrahedra");
+}
+
 /// "8 cells, cut into 48 tetrahedra"; "8 cells" without parts.
 inline std::string cells_text(std::uint64_t cells, std::uint64_t parts, int dimension) {
-    std::string text = counted(cells, "cell");
-    if (parts != 0)
-        text +=
-            ", cut into " + (dimension == 2 ? counted(parts, "triangle") : counted(parts, "tetrahedron", "tetrahedra"));
-    return text;
+    return counted(cells, "cell") + (parts == 0 ? "" : ", cut into " + simplices_text(parts, dimension));
 }
 
 }  // namespace barycert::report

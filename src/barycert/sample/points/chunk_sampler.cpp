@@ -234,7 +234,8 @@ void ChunkSampler::straight(const locate::PointRecord* points, std::size_t count
         data_.quadratic ? interpolate_second_order(points, inside) : interpolate_linear(points, inside);
     for (std::size_t i = 0; data_.has_rest() && i < inside; ++i) {
         const locate::PointRecord& point = points[inside_[i].point];
-        set_rest_of_row(data_, options_.rounding, index.original[inside_[i].cell], point.at.data(), row(point));
+        set_rest_of_row(data_, options_.rounding, index.original[static_cast<std::size_t>(inside_[i].cell)],
+                        point.at.data(), row(point));
     }
 }
 

@@ -24,9 +24,14 @@ public:
         const core::GridPoints all{points, rows.cells, rows.features, fields_, multilinear, rows.values, data_.width};
         undecided.resize(core::sample_grid(grid_, all, undecided.data()));
         SampleCounts counts;
-        for (const std::uint32_t i : undecided)
-            set_exactly(&points[d_ * i], static_cast<std::size_t>(rows.cells[i]), rows.values + data_.width * i,
-                        counts);
+        for (const std::uint32_t i : undecided) {
+            const double* const point = &points[d_ * i];
+            const auto cell = static_cast<std::size_t>(rows.cells[i]);
+            double* const row = rows.values + data_.width * i;
+            multilinear ? set_product(point, cell, row) : set_in_part(point, cell, row);
+            counts.values.not_finite += base::all_finite({row, fields_.size()}) ? 0 : 1;
+        }
+        counts.values.add(Tier::exact, undecided.size());
         const double outside =
             options_.outside.kind == Outside::fill ? options_.outside.fill : std::numeric_limits<double>::quiet_NaN();
         std::size_t inside = 0;
@@ -62,13 +67,6 @@ private:
             rest /= grid_.cells[k];
         }
         return out;
-    }
-
-    void set_exactly(const double* point, std::size_t cell, double* row, SampleCounts& counts) const {
-        data_.located().multilinear ? set_product(point, cell, row) : set_in_part(point, cell, row);
-        counts.values.add(Tier::exact);
-        const std::span<const double> values(row, fields_.size());
-        counts.values.not_finite += base::all_finite(values) ? 0 : 1;
     }
 
     void set_product(const double* point, std::size_t cell, double* row) const {

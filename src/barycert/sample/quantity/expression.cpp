@@ -122,10 +122,8 @@ const Field* field_named(const std::vector<Field>& fields, std::string_view name
 }
 
 std::vector<std::string> all_field_names(const Mesh& mesh) {
-    std::vector<std::string> names;
-    for (const bool cells : {false, true}) {
-        for (const Field& field : fields_of(mesh, cells)) names.push_back(field.name);
-    }
+    std::vector<std::string> names = base::names_of(mesh.point_fields);
+    for (const Field& field : mesh.cell_fields) names.push_back(field.name);
     return names;
 }
 

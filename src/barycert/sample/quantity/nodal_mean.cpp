@@ -25,7 +25,8 @@ void for_cells_of_nodes(const Mesh& mesh, const Use& use) {
     const Mesh::Shapes& shapes = mesh.shapes;
     std::vector<Mesh::Index> nodes;
     for (std::size_t i = 0; i < shapes.count(); ++i) {
-        nodes.assign(shapes.nodes.begin() + (i == 0 ? 0 : shapes.ends[i - 1]), shapes.nodes.begin() + shapes.ends[i]);
+        const std::span all = shapes.nodes_of(i);
+        nodes.assign(all.begin(), all.end());
         std::ranges::sort(nodes);
         nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
         for (Mesh::Index cell = shapes.parts[i]; cell < shapes.parts[i + 1]; ++cell) {
