@@ -170,17 +170,7 @@ Buffer<KeyedPlace> order_cells(const Cells& mesh, const Bins& bins) {
     return wholes;
 }
 
-/// The bin of the middle of a cell, or of one beside it: coordinates are rounded here.
-template <std::size_t d, std::size_t corners>
-std::uint32_t bin_of_middle(const CellIndex& index, const CellRecord& cell) {
-    std::array<double, d> middle{};
-    for (std::size_t i = 0; i < corners; ++i)
-        for (std::size_t k = 0; k < d; ++k) middle[k] += index.nodes[cell.node[i]].at[k] * (1.0 / corners);
-    return index.bins.of(middle.data());
-}
-
-/// In the order of whole cells. Of several cells with their middles in one bin the last one is its start.
-template <std::size_t d, std::size_t corners>
+template <std::size_t corners>
 void place_cells(const Cells& mesh, const Buffer<KeyedPlace>& order, const Buffer<Place>& place_of_node,
                  CellIndex& index) {
     const auto whole_at = [&](std::size_t i) { return static_cast<std::size_t>(order[i].place); };
@@ -206,9 +196,36 @@ void place_cells(const Cells& mesh, const Buffer<KeyedPlace>& order, const Buffe
                 if constexpr (corners == 3) record.node[3] = record.node[0];
                 record.next = {-1, -1, -1, -1};
                 index.original[place] = static_cast<Mesh::Index>(cell);
-                if (index.start.size() == 0) continue;
-                const std::atomic_ref start(
-                    index.start[mesh.wholes.empty() ? order[i].key : bin_of_middle<d, corners>(index, record)]);
+            }
+        }
+    });
+}
+
+/// The bin of the middle of a cell, or of one beside it: coordinates are rounded here.
+template <std::size_t d, std::size_t corners>
+std::uint32_t bin_of_middle(const CellIndex& index, const CellRecord& cell) {
+    std::array<double, d> middle{};
+    for (std::size_t i = 0; i < corners; ++i)
+        for (std::size_t k = 0; k < d; ++k) middle[k] += index.nodes[cell.node[i]].at[k] * (1.0 / corners);
+    return index.bins.of(middle.data());
+}
+
+/// The start of a bin is the last cell with its middle there. `order`: of the cells, or empty.
+template <std::size_t d, std::size_t corners>
+void set_starts(std::span<const KeyedPlace> order, CellIndex& index) {
+    constexpr std::size_t at_once = 256;
+    std::fill_n(index.start.data(), index.start.size(), -1);
+    base::parallel_for(index.cell_count(), grain, [&](std::size_t first, std::size_t last) {
+        std::array<std::uint32_t, at_once> bins;
+        for (std::size_t at = first; at < last; at += at_once) {
+            const std::size_t count = std::min(at_once, last - at);
+            for (std::size_t i = 0; i < count; ++i) {
+                bins[i] = order.empty() ? bin_of_middle<d, corners>(index, index.cells[at + i]) : order[at + i].key;
+                __builtin_prefetch(&index.start[bins[i]], 1);
+            }
+            for (std::size_t i = 0; i < count; ++i) {
+                const std::atomic_ref start(index.start[bins[i]]);
+                const auto place = static_cast<Place>(at + i);
                 Place before = start.load(std::memory_order_relaxed);
                 while (before < place && !start.compare_exchange_weak(before, place, std::memory_order_relaxed))
                     continue;
@@ -238,9 +255,10 @@ template <std::size_t d, std::size_t corners>
 void build(const Cells& mesh, const std::vector<Mesh::Index>& used, CellIndex& index) {
     const Buffer<Place> place_of_node = place_nodes<d>(mesh, used, index);
     const Buffer<KeyedPlace> order = order_cells<d, corners>(mesh, index.bins);
-    std::fill_n(index.start.data(), index.start.size(), -1);
-    place_cells<d, corners>(mesh, order, place_of_node, index);
-    if (index.start.size() != 0) fill_starts(index.start);
+    place_cells<corners>(mesh, order, place_of_node, index);
+    if (index.start.size() == 0) return;
+    set_starts<d, corners>(mesh.wholes.empty() ? order : std::span<const KeyedPlace>(), index);
+    fill_starts(index.start);
 }
 
 }  // namespace
@@ -258,7 +276,7 @@ CellIndex make_cell_index(Simplex simplex, std::span<const double> points, std::
     // A surface goes through few of the bins of its box.
     const bool surface = simplex == Simplex::triangle3d;
     if (count != 0)
-        index.bins = Bins(index.dimension(), index.low.data(), index.high.data(), count << (surface ? 7 : 0));
+        index.bins = Bins(index.dimension(), index.low.data(), index.high.data(), count << (surface ? 7 : 1));
     if (!surface) index.start = Buffer<Place>(index.bins.count());
     if (count == 0) {
         std::fill_n(index.start.data(), index.start.size(), 0);

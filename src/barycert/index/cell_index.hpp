@@ -61,7 +61,7 @@ struct alignas(32) NodeRecord {
 struct CellIndex {
     Simplex simplex = Simplex::tetrahedron;
     std::array<double, 3> low{}, high{};  ///< the box of all cells, exactly
-    Bins bins;                            ///< about as many as cells
+    Bins bins;                            ///< one to two a cell; of surfaces 64 to 128
     Buffer<CellRecord> cells;
     Buffer<Mesh::Index> original;  ///< cell of the mesh by place
     Buffer<NodeRecord> nodes;

@@ -3,10 +3,10 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
-#include <numeric>
 #include <unordered_map>
 
 #include "barycert/base/arena.hpp"
+#include "barycert/base/large_pages.hpp"
 #include "barycert/mesh/cell_types.hpp"
 #include "barycert/mesh/columns.hpp"
 #include "barycert/mesh/part.hpp"
@@ -172,8 +172,7 @@ class Cutter {
 public:
     Cutter(const Mesh& mesh, KnownParts& known) : mesh_(mesh), known_(known) {}
 
-    std::vector<Index> cells, counts;
-    std::vector<std::uint16_t> inside;
+    std::size_t part_count = 0;
     std::optional<std::size_t> open;  ///< the first polyhedron whose faces do not close
 
     void cut(std::size_t cell) {
@@ -205,7 +204,32 @@ public:
         if (parts.corners.empty())
             parts = mesh_.dimension == 3 ? cut_solid(Faces(of_type, nodes.size()), nodes.size(), rank)
                                          : cut_polygon(type, of_type.front(), rank);
-        add(parts, rank);
+        known_cells_.push_back(&parts);
+        part_count += parts.corners.size();
+    }
+
+    /// The parts of what was cut, the first of which has that number, where the mesh has them.
+    void write(Mesh& mesh, std::size_t first_cell, std::size_t part) const {
+        const std::size_t corners = mesh.corners();
+        std::size_t other = 0, other_cell = 0;
+        for (std::size_t i = 0; i < known_cells_.size(); ++i) {
+            const std::size_t cell = first_cell + i;
+            mesh.shapes.parts[cell] = static_cast<Index>(part);
+            Index* next = mesh.cells.data() + corners * part;
+            if (const Parts* const parts = known_cells_[i]) {
+                const std::span nodes = mesh.shapes.nodes_of(cell);
+                for (const auto& corner : parts->corners) {
+                    for (std::size_t k = 0; k < corners; ++k) *next++ = nodes[static_cast<std::size_t>(corner[k])];
+                }
+                std::ranges::copy(parts->inside, &mesh.shapes.inside[part]);
+                part += parts->corners.size();
+            } else {
+                for (const std::size_t end = other_ends_[other_cell++]; other < end; ++other, ++part) {
+                    next = std::copy_n(&other_cells_[corners * other], corners, next);
+                    mesh.shapes.inside[part] = other_inside_[other];
+                }
+            }
+        }
     }
 
 private:
@@ -242,24 +266,28 @@ private:
 
     template <class Node>
     void add(const Parts& parts, Node node) {
-        const std::size_t corners = mesh_.corners(), before = inside.size();
-        cells.resize(corners * (before + parts.corners.size()));
-        Index* next = cells.data() + corners * before;
+        const std::size_t corners = mesh_.corners(), before = other_inside_.size();
         for (const auto& part : parts.corners) {
-            for (std::size_t k = 0; k < corners; ++k) *next++ = node(part[k]);
+            for (std::size_t k = 0; k < corners; ++k) other_cells_.push_back(node(part[k]));
         }
-        inside.insert(inside.end(), parts.inside.begin(), parts.inside.end());
+        other_inside_.insert(other_inside_.end(), parts.inside.begin(), parts.inside.end());
         // A cell that is flat has one degenerate part, so that it is counted.
-        if (inside.size() == before) {
-            cells.resize(cells.size() + corners, any_);
-            inside.push_back(0);
+        if (other_inside_.size() == before) {
+            other_cells_.resize(other_cells_.size() + corners, any_);
+            other_inside_.push_back(0);
         }
-        counts.push_back(static_cast<Index>(inside.size() - before));
+        known_cells_.push_back(nullptr);
+        other_ends_.push_back(other_inside_.size());
+        part_count += other_inside_.size() - before;
     }
 
     const Mesh& mesh_;
     Index any_ = 0;  ///< a node of the cell
     KnownParts& known_;
+    std::vector<const Parts*> known_cells_;  ///< places in each cell; nullptr: the next of the others
+    std::vector<Index> other_cells_;         ///< nodes of their parts, one cell after the other
+    std::vector<std::uint16_t> other_inside_;
+    std::vector<std::size_t> other_ends_;
 };
 
 }  // namespace
@@ -296,44 +324,35 @@ std::optional<std::size_t> pull(Mesh& mesh) {
         for (std::size_t cell = b * step; cell < std::min(count, (b + 1) * step); ++cell) cutter.cut(cell);
     });
     std::vector<std::size_t> first(blocks + 1);
-    for (std::size_t b = 0; b < blocks; ++b) first[b + 1] = first[b] + cutters[b]->inside.size();
+    for (std::size_t b = 0; b < blocks; ++b) first[b + 1] = first[b] + cutters[b]->part_count;
     mesh.cells.resize(first[blocks] * mesh.corners());
-    shapes.inside.resize(first[blocks]);
-    shapes.parts.resize(count + 1);
-    base::parallel_for(blocks, [&](std::size_t b) {
-        std::ranges::copy(cutters[b]->cells, mesh.cells.data() + first[b] * mesh.corners());
-        std::ranges::copy(cutters[b]->inside, shapes.inside.data() + first[b]);
-        auto next = static_cast<Index>(first[b]);
-        for (std::size_t i = 0; i < cutters[b]->counts.size(); ++i) {
-            shapes.parts[b * step + i] = next;
-            next += cutters[b]->counts[i];
-        }
-        if (b + 1 == blocks) shapes.parts[count] = next;
-    });
+    base::resize_large(shapes.inside, first[blocks]);
+    base::resize_large(shapes.parts, count + 1);
+    shapes.parts[count] = static_cast<Index>(first[blocks]);
+    base::parallel_for(blocks, [&](std::size_t b) { cutters[b]->write(mesh, b * step, first[b]); });
     const auto open = std::ranges::find_if(cutters, [](const auto& cutter) { return cutter->open.has_value(); });
     return open == cutters.end() ? std::nullopt : (*open)->open;
 }
 
 std::vector<Index> whole_of_parts(const Mesh& mesh) {
     std::vector<Index> wholes;
-    wholes.reserve(mesh.cell_count());
-    for (std::size_t i = 0; i < mesh.shapes.count(); ++i)
-        wholes.resize(static_cast<std::size_t>(mesh.shapes.parts[i + 1]), static_cast<Index>(i));
+    base::resize_large(wholes, mesh.shapes.types.empty() ? 0 : mesh.cell_count());
+    base::parallel_for_each(mesh.shapes.count(), std::size_t{1} << 14, [&](std::size_t i) {
+        const auto begin = wholes.begin() + mesh.shapes.parts[i], end = wholes.begin() + mesh.shapes.parts[i + 1];
+        std::fill(begin, end, static_cast<Index>(i));
+    });
     return wholes;
 }
 
 std::optional<std::size_t> cut_into_simplices(Mesh& mesh) {
-    std::vector<Index> numbers = std::move(mesh.cell_numbers);
-    if (numbers.empty()) {
-        numbers.resize(mesh.shapes.count());
-        std::iota(numbers.begin(), numbers.end(), 0);
-    }
     const std::optional<std::size_t> open = pull(mesh);
-    const std::vector<Index> of_part = whole_of_parts(mesh);
-    mesh.cell_numbers.clear();
-    append_rows_of(numbers, 1, of_part, mesh.cell_numbers);
+    std::vector<Index> of_part = whole_of_parts(mesh);
     for (Field& field : mesh.cell_fields) field = rows_of(field, of_part);
     for (Column& labels : mesh.cell_labels) labels = labels_at(labels, of_part);
+    if (mesh.cell_numbers.empty())
+        mesh.cell_numbers = std::move(of_part);
+    else
+        keep_rows(mesh.cell_numbers, 1, of_part);
     return open;
 }
 

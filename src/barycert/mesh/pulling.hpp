@@ -44,7 +44,7 @@ std::optional<std::size_t> pull(Mesh& mesh);
 /// The same; cell numbers, fields and labels have a row for each shape before, for each cell then.
 std::optional<std::size_t> cut_into_simplices(Mesh& mesh);
 
-/// The shape that each cell is a part of.
+/// The shape that each cell is a part of; empty without shapes.
 std::vector<Mesh::Index> whole_of_parts(const Mesh& mesh);
 
 /// Cell fields and labels of a mesh with shapes, a row for each of these; nothing else.
