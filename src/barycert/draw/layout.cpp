@@ -188,19 +188,18 @@ private:
 
     /// The edges, but for those between two sides that look at the viewer, which lie before the mesh.
     void set_box_edges(const View& view) {
-        const auto looks_at_viewer = [&](unsigned k, bool high) {
-            const unsigned first = high ? 1U << k : 0, u = 1U << (k + 1) % 3, v = 1U << (k + 2) % 3;
+        const auto looks_at_viewer = [&](unsigned corner, unsigned across) {
+            const unsigned first = corner & 1U << across, u = 1U << (across + 1) % 3, v = 1U << (across + 2) % 3;
             const auto at = [&](unsigned i) { return view.at(view.space().corner(i)); };
             const Pixel a = at(first), b = at(first | u), c = at(first | v);
             const double area = (c.x - a.x) * (b.y - a.y) - (b.x - a.x) * (c.y - a.y);  // y is downwards
-            return (high ? area : -area) > 1;
+            return (first != 0 ? area : -area) > 1;
         };
         edges_.clear();
         for (unsigned i = 0; i < 8; ++i) {
             for (unsigned k = 0; k < 3; ++k) {
-                const unsigned u = (k + 1) % 3, v = (k + 2) % 3;
-                if ((i >> k & 1U) != 0) continue;
-                if (looks_at_viewer(u, (i >> u & 1U) != 0) && looks_at_viewer(v, (i >> v & 1U) != 0)) continue;
+                const bool before = looks_at_viewer(i, (k + 1) % 3) && looks_at_viewer(i, (k + 2) % 3);
+                if ((i >> k & 1U) != 0 || before) continue;
                 edges_.insert(edges_.end(), {static_cast<int>(i), static_cast<int>(i | 1U << k)});
             }
         }

@@ -278,10 +278,8 @@ CellIndex make_cell_index(Simplex simplex, std::span<const double> points, std::
     if (count != 0)
         index.bins = Bins(index.dimension(), index.low.data(), index.high.data(), count << (surface ? 7 : 1));
     if (!surface) index.start = Buffer<Place>(index.bins.count());
-    if (count == 0) {
-        std::fill_n(index.start.data(), index.start.size(), 0);
-        return index;
-    }
+    if (count == 0 && !surface) index.start[0] = 0;
+    if (count == 0) return index;
     simplex == Simplex::triangle     ? build<2, 3>(mesh, used, index)
     : simplex == Simplex::triangle3d ? build<3, 3>(mesh, used, index)
                                      : build<3, 4>(mesh, used, index);
