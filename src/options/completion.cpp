@@ -64,12 +64,14 @@ std::string zsh_value(const OptionEntry& option) {
 
 std::string specification(const OptionEntry& option) {
     if (option.operand) return ' ' + in_quotes((option.repeats ? "*" : "") + zsh_value(option));
-    const std::string text = '[' + escaped(summary(option.text), "[]\\:") + ']';
-    const std::string value = option.type.empty() ? "" : (option.may_be_bare ? ":" : "") + zsh_value(option);
+    std::string rest = '[' + escaped(summary(option.text), "[]\\:") + ']';
+    if (!option.type.empty()) rest += (option.may_be_bare ? ":" : "") + zsh_value(option);
     std::string all;
     for (const std::string& name : option.names) {
-        const bool equals = !option.type.empty() && name.starts_with("--");
-        all += ' ' + in_quotes((option.repeats ? "*" : "") + name + (equals ? "=" : "") + text + value);
+        std::string one = option.repeats ? '*' + name : name;
+        if (!option.type.empty() && name.starts_with("--")) one += '=';
+        one += rest;
+        all += ' ' + in_quotes(one);
     }
     return all;
 }
