@@ -365,7 +365,7 @@ struct SceneChoice {
     std::int64_t arrow_count = 400;        ///< about so many
     std::vector<double> points = {};       ///< coordinates of discs, in colours of the field there
     double point_size = 6;                 ///< pixels across
-    BuildOptions cells = {};               ///< how they are located
+    BuildOptions location = {};            ///< of these points
     std::vector<Mesh::Index> marked = {};  ///< cells by their numbers, in red
 };
 

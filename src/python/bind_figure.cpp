@@ -94,7 +94,7 @@ void plot(MeshObject& object, const std::string& field, const py::dict& options,
     take(given, figure);
     given.finish();
     if (show.iso_field.empty()) show.iso_field = field;
-    show.cells = object.geometry()->options;
+    show.location = object.geometry()->options;
     const py::gil_scoped_release unlocked;
     write_mesh_figure(path, object.whole(), show, field, figure).value();
 }

@@ -4,15 +4,19 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <fstream>
 #include <limits>
+#include <map>
 #include <regex>
 #include <string>
 #include <vector>
 
 #include "barycert/draw/axes.hpp"
+#include "barycert/raster.hpp"
 #include "barycert/report.hpp"
 #include "barycert/report/check/check_pictures.hpp"
 #include "check_meshes.hpp"
+#include "io/tetgen/mesh_files.hpp"
 #include "lines.hpp"
 #include "well_formed.hpp"
 
@@ -100,6 +104,26 @@ TEST(CheckHtml, SaysWhatIsWrongBeforeAllAndPraisesNothingElse) {
     EXPECT_NE(of_flat.find("no cell in a bar", shapes), std::string::npos);
 }
 
+/// Of the first picture behind `at`: pixels of each colour.
+std::map<Rgba, std::size_t> colours_of_picture(const std::string& page, std::size_t at) {
+    constexpr std::string_view head = "data:image/png;base64,",
+                               letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string bytes;
+    std::uint32_t bits = 0, count = 0;
+    for (at = page.find(head, at) + head.size(); letters.find(page[at]) != std::string_view::npos; ++at) {
+        bits = bits << 6 | static_cast<std::uint32_t>(letters.find(page[at]));
+        if ((count += 6) < 8) continue;
+        count -= 8;
+        bytes += static_cast<char>(bits >> count & 0xFFU);
+    }
+    const testing::TemporaryFolder folder;
+    std::ofstream(folder / "p.png", std::ios::binary) << bytes;
+    const Image image = read_png(folder / "p.png").value();
+    std::map<Rgba, std::size_t> all;
+    for (std::int32_t k = 0; k < image.width * image.height; ++k) ++all[image.pixel(k % image.width, k / image.width)];
+    return all;
+}
+
 TEST(CheckHtml, MeshesInThePlaneAreDrawnBesideTheirDefects) {
     Mesh plane;
     plane.dimension = 2;
@@ -108,7 +132,14 @@ TEST(CheckHtml, MeshesInThePlaneAreDrawnBesideTheirDefects) {
     const std::string page = check_html(checked(plane), plane, "part");
     const std::size_t map = page.find("class=\"map\"");
     ASSERT_NE(map, std::string::npos);
-    EXPECT_NE(page.substr(map, page.find("The box of the cells", map) - map).find("<image"), std::string::npos);
+    // Cells with defects are red, those with the smallest angles as well, which others are blue.
+    auto colours = colours_of_picture(page, map);
+    EXPECT_GT((colours[{200, 16, 46, 255}]), 1000U);
+    EXPECT_EQ((colours[{0, 114, 178, 255}]), 0U);
+    plane.cells = {0, 1, 2};
+    const std::string good = check_html(checked(plane), plane, "part");
+    colours = colours_of_picture(good, good.find("class=\"map\""));
+    EXPECT_GT((colours[{0, 114, 178, 255}]), 1000U);
 }
 
 TEST(Bins, EveryValueIsCountedOnce) {

@@ -210,7 +210,7 @@ std::uint32_t bin_of_middle(const CellIndex& index, const CellRecord& cell) {
     return index.bins.of(middle.data());
 }
 
-/// The start of a bin is the last cell with its middle there. `order`: of the cells, or empty.
+/// The start of a bin is the last cell with its middle there. `order`: of cells that have these bins as keys, or empty.
 template <std::size_t d, std::size_t corners>
 void set_starts(std::span<const KeyedPlace> order, CellIndex& index) {
     constexpr std::size_t at_once = 256;

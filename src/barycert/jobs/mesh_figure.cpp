@@ -377,7 +377,7 @@ void MeshFigure::add_points() {
     FigurePoints& of = figure_.points.emplace_back(
         FigurePoints{.points = show_.points, .size = show_.point_size, .colour = dark_grey});
     if (shown_.field == nullptr) return;
-    const Locator locator = Locator::build(*mesh_, show_.cells).value();
+    const Locator locator = Locator::build(*mesh_, show_.location).value();
     const Table rows = Sampler::build(locator, {shown_}).value().sample(show_.points, {.threads = threads_}).value();
     of.values = numbers_.emplace_back(rows.values);
     if (const std::uint64_t none = rows.counts.locations.outside; none != 0)

@@ -3,6 +3,8 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
+#include <deque>
+#include <numeric>
 #include <unordered_map>
 
 #include "barycert/base/arena.hpp"
@@ -164,7 +166,7 @@ Parts cut_polygon(std::uint8_t type, std::vector<Index> nodes, Rank rank) {
     return parts;
 }
 
-/// Cells that are cut alike, by type and which nodes are lowest.
+/// Cells that are cut alike, by type, number of nodes and which of these are lowest.
 using KnownParts = std::unordered_map<std::uint64_t, Parts>;
 
 /// Cuts cells one after the other. What is cut alike is cut once.
@@ -183,12 +185,20 @@ public:
         const auto& of_type = rings_of(type);
         any_ = nodes.empty() ? 0 : nodes.front();
         if (type == vtk_polyhedron) return cut_rings(cell, rings_of_polyhedron(cell), true);
-        if (mesh_.dimension == 2 && of_type.empty())
-            return add(cut_polygon(type, {nodes.begin(), nodes.end()}, std::identity()), std::identity());
         const auto rank = [&](Index place) { return nodes[static_cast<std::size_t>(place)]; };
         // Which node is lowest, of all and of each face, tells how the cell is cut.
-        std::uint64_t key = type;
         const auto apex = static_cast<std::uint64_t>(std::ranges::min_element(nodes) - nodes.begin());
+        if (mesh_.dimension == 2 && of_type.empty()) {
+            const std::uint64_t kind = type == vtk_triangle_strip ? 2 : 1;  // no other key has such bits
+            Parts& parts = known_[kind << 62U | nodes.size() << 31U | apex];
+            if (parts.corners.empty()) {
+                std::vector<Index> places(nodes.size());
+                std::iota(places.begin(), places.end(), 0);
+                parts = cut_polygon(type, std::move(places), rank);
+            }
+            return add(parts, false);
+        }
+        std::uint64_t key = type;
         bool twice = false;
         for (std::size_t i = 0; i < nodes.size(); ++i) {
             for (std::size_t j = 0; j < i; ++j) twice |= nodes[i] == nodes[j];
@@ -204,31 +214,22 @@ public:
         if (parts.corners.empty())
             parts = mesh_.dimension == 3 ? cut_solid(Faces(of_type, nodes.size()), nodes.size(), rank)
                                          : cut_polygon(type, of_type.front(), rank);
-        known_cells_.push_back(&parts);
-        part_count += parts.corners.size();
+        add(parts, false);
     }
 
     /// The parts of what was cut, the first of which has that number, where the mesh has them.
     void write(Mesh& mesh, std::size_t first_cell, std::size_t part) const {
-        const std::size_t corners = mesh.corners();
-        std::size_t other = 0, other_cell = 0;
-        for (std::size_t i = 0; i < known_cells_.size(); ++i) {
-            const std::size_t cell = first_cell + i;
-            mesh.shapes.parts[cell] = static_cast<Index>(part);
-            Index* next = mesh.cells.data() + corners * part;
-            if (const Parts* const parts = known_cells_[i]) {
-                const std::span nodes = mesh.shapes.nodes_of(cell);
-                for (const auto& corner : parts->corners) {
-                    for (std::size_t k = 0; k < corners; ++k) *next++ = nodes[static_cast<std::size_t>(corner[k])];
-                }
-                std::ranges::copy(parts->inside, &mesh.shapes.inside[part]);
-                part += parts->corners.size();
-            } else {
-                for (const std::size_t end = other_ends_[other_cell++]; other < end; ++other, ++part) {
-                    next = std::copy_n(&other_cells_[corners * other], corners, next);
-                    mesh.shapes.inside[part] = other_inside_[other];
-                }
+        Index* next = mesh.cells.data() + mesh.corners() * part;
+        for (std::size_t i = 0; i < cuts_.size(); ++i) {
+            const auto& [parts, numbered] = cuts_[i];
+            const std::span nodes = mesh.shapes.nodes_of(first_cell + i);
+            for (const auto& corners : parts->corners) {
+                for (std::size_t k = 0; k < mesh.corners(); ++k)
+                    *next++ = numbered ? corners[k] : nodes[static_cast<std::size_t>(corners[k])];
             }
+            std::ranges::copy(parts->inside, &mesh.shapes.inside[part]);
+            mesh.shapes.parts[first_cell + i] = static_cast<Index>(part);
+            part += parts->corners.size();
         }
     }
 
@@ -258,36 +259,36 @@ private:
         for (auto& ring : rings) {
             for (Index& node : ring) node = static_cast<Index>(std::ranges::lower_bound(nodes, node) - nodes.begin());
         }
-        if (mesh_.dimension == 2) return add(rings.empty() ? Parts() : cut_polygon(0, rings.front(), own), own);
-        Faces faces(std::move(rings), nodes.size());
-        if (must_close && !faces.orient() && !open) open = cell;
-        add(cut_solid(faces, nodes.size(), own), own);
+        Parts parts;
+        if (mesh_.dimension == 3) {
+            Faces faces(std::move(rings), nodes.size());
+            if (must_close && !faces.orient() && !open) open = cell;
+            parts = cut_solid(faces, nodes.size(), own);
+        } else if (!rings.empty()) {
+            parts = cut_polygon(0, rings.front(), own);
+        }
+        for (auto& corners : parts.corners) {
+            for (std::size_t k = 0; k < mesh_.corners(); ++k) corners[k] = own(corners[k]);
+        }
+        add(own_.emplace_back(std::move(parts)), true);
     }
 
-    template <class Node>
-    void add(const Parts& parts, Node node) {
-        const std::size_t corners = mesh_.corners(), before = other_inside_.size();
-        for (const auto& part : parts.corners) {
-            for (std::size_t k = 0; k < corners; ++k) other_cells_.push_back(node(part[k]));
-        }
-        other_inside_.insert(other_inside_.end(), parts.inside.begin(), parts.inside.end());
+    void add(const Parts& parts, bool numbered) {
         // A cell that is flat has one degenerate part, so that it is counted.
-        if (other_inside_.size() == before) {
-            other_cells_.resize(other_cells_.size() + corners, any_);
-            other_inside_.push_back(0);
-        }
-        known_cells_.push_back(nullptr);
-        other_ends_.push_back(other_inside_.size());
-        part_count += other_inside_.size() - before;
+        if (parts.corners.empty()) return add(own_.emplace_back(Parts{{{any_, any_, any_, any_}}, {0}}), true);
+        cuts_.push_back({&parts, numbered});
+        part_count += parts.corners.size();
     }
 
+    struct Cut {
+        const Parts* parts;
+        bool numbered;  ///< by nodes of the mesh; else by places in the cell
+    };
     const Mesh& mesh_;
     Index any_ = 0;  ///< a node of the cell
     KnownParts& known_;
-    std::vector<const Parts*> known_cells_;  ///< places in each cell; nullptr: the next of the others
-    std::vector<Index> other_cells_;         ///< nodes of their parts, one cell after the other
-    std::vector<std::uint16_t> other_inside_;
-    std::vector<std::size_t> other_ends_;
+    std::vector<Cut> cuts_;
+    std::deque<Parts> own_;  ///< of cells that no other is like
 };
 
 }  // namespace

@@ -54,8 +54,7 @@ Mesh rows_of_wholes(const Mesh& mesh);
 /// an edge, in the order 01 02 03 12 13 23: 0 an edge of the cell, 1 on a face, 2 inside. In the plane: bit k, the edge
 /// opposite to corner k lies inside.
 ///
-/// The feature of the whole cell on which a point of a part lies, by the corners of the part with weight zero: not
-/// all.
+/// The feature of the whole cell on which a point of a part lies, by the corners with weight zero: not all of them.
 inline Feature feature_of_whole(std::uint16_t inside, unsigned zeros, int dimension) {
     const int count = std::popcount(zeros);
     if (count == dimension) return Feature::vertex;

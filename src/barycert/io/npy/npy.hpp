@@ -20,6 +20,12 @@ struct NpyType {
     bool is_text() const { return kind == 'S' || kind == 'U'; }
 };
 
+/// Of a simple type such as <f8. Nothing where the size of an item is not known, or an item is a Python object.
+std::optional<NpyType> npy_type(std::string_view descr);
+
+/// False if it is no code of Unicode, or a surrogate.
+bool append_utf8(std::string& text, std::uint32_t code);
+
 /// The text of a header is at most this long: more has no meaning for an array of numbers.
 inline constexpr std::size_t longest_npy_text = std::size_t{1} << 20;
 
@@ -45,6 +51,8 @@ struct NpyHeader {
     std::vector<std::uint64_t> shape;
     std::size_t size = 0;  ///< of the header, in bytes
 };
+
+NpyHeader read_npy_header(const base::InputFile& file, const std::string& path);
 
 /// At most so many columns: more have no meaning for points.
 inline constexpr std::uint64_t most_npy_columns = std::uint64_t{1} << 16;

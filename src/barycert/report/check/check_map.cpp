@@ -111,13 +111,14 @@ std::string picture_of(const CheckReport& r, const Mesh& mesh, const std::vector
     const auto segments = surface::outline_of(*hull);
     scene.figure.lines = {{hull->points, segments, 1, grey}};
     scene.nodes = part.nodes;
+    const std::vector<Mesh::Index> problems = problem_cells(r, mesh);
     std::vector<Mesh::Index> rest;
     for (const Exhibit& e : exhibits) {
-        if (!e.defect) rest.push_back(e.cells[0]);
+        if (!e.defect && !std::ranges::binary_search(problems, e.cells[0])) rest.push_back(e.cells[0]);
         const Vector at = middle_of(mesh, e.cells[0]);
         scene.labels.push_back({{at[0], at[1], at[2]}, std::to_string(&e - exhibits.data() + 1), e.defect});
     }
-    const Surface bad = facets(problem_cells(r, mesh)), worst = facets(rest);
+    const Surface bad = facets(problems), worst = facets(rest);
     for (const auto& [cells, colour] : {std::pair(&bad, red), {&worst, blue}}) {
         if (cells->cells.empty()) continue;
         scene.surfaces.push_back({cells, colour});
