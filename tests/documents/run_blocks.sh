@@ -1,12 +1,13 @@
 #!/bin/sh
 # Runs what a document shows: every command of its ```sh blocks, in the order of the document, in a copy of the sources.
 #
-#   run_blocks.sh DOCUMENT SOURCES PROGRAMS EXAMPLES FOLDER
+#   run_blocks.sh DOCUMENT SOURCES PROGRAMS EXAMPLES FOLDER AUDIT
 #
 # DOCUMENT   relative to SOURCES, such as doc/audit.md
 # PROGRAMS   the folder with barycert and, if it was built, barycert-tetgen; `./run` in the copy calls them
 # EXAMPLES   the folder with the programs built from doc/examples
 # FOLDER     is replaced: holds the copy and what the commands print
+# AUDIT      the folder of standard_audit.sh: what `./run audit` writes and prints, which takes long, made once for all
 #
 # Rules of a document:
 # - A command must exit with 0, or with N if its line ends in `# exits N`.
@@ -20,7 +21,7 @@
 # With UPDATE=1 in the environment a ```text block that differs, and leaves nothing out, is replaced by what is printed.
 # - Commands that install packages, build or take long are in `not_run` below, and nowhere else.
 set -eu
-document=$1 sources=$2 programs=$3 examples=$4 folder=$5
+document=$1 sources=$2 programs=$3 examples=$4 folder=$5 audit=$6
 
 not_run() {
     case $1 in
@@ -58,7 +59,7 @@ export BARYCERT_COMMAND
 command=\$1
 shift
 case \$command:\${1-} in
-    audit:) exec "$programs/barycert" audit --html audit.html --json audit.json --witnesses witnesses.json ;;
+    audit:) cp "$audit/audit.html" "$audit/audit.json" "$audit/witnesses.json" . && cat "$audit/printed" && exit \$(cat "$audit/exit") ;;
     audit:*) exec "$programs/barycert" audit "\$@" ;;
     barycert:mesh) shift; exec "$programs/barycert-tetgen" "\$@" ;;
     barycert:*) exec "$programs/barycert" "\$@" ;;

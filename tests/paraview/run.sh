@@ -9,7 +9,7 @@ mkdir -p "$folder"
 
 pvpython "$root/tests/paraview/plugin_test.py" "$programs/barycert" "$plugin" "$folder/plugin" 2>&1
 
-PV_PLUGIN_PATH=$(dirname "$plugin") sh "$root/tests/documents/run_blocks.sh" doc/paraview.md "$root" "$programs" /nowhere "$folder/document"
+PV_PLUGIN_PATH=$(dirname "$plugin") sh "$root/tests/documents/run_blocks.sh" doc/paraview.md "$root" "$programs" /nowhere "$folder/document" /nowhere
 
 # The values of one process, with the mesh whole or in pieces, are those of several.
 for processes in 1 2 3; do
