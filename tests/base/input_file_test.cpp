@@ -70,6 +70,18 @@ TEST_F(InputFileTest, WhatIsNoFile) {
     EXPECT_EQ(base::InputFile::open(pipe("p"), "do this").error().remedy, "do this");
 }
 
+TEST_F(InputFileTest, APointerOfGitLfsIsNotTheFile) {
+    const std::string begin = "version https://git-lfs.github.com/spec/";
+    const std::string name = put("a.vtu", begin + "v1\noid sha256:4d7a\nsize 12345\n");
+    for (const Error& error : {base::read_file(name).error(), base::InputFile::open(name).error(),
+                               base::InputFile::head(name, 10).error(), base::MappedFile::open(name).error()}) {
+        EXPECT_TRUE(error.what.starts_with("this is a pointer of Git LFS")) << error.message();
+        EXPECT_EQ(error.file, name);
+        EXPECT_NE(error.remedy.find("`git lfs pull`"), std::string::npos);
+    }
+    EXPECT_TRUE(base::read_file(put("b.vtu", begin.substr(0, begin.size() - 1))));
+}
+
 TEST_F(InputFileTest, AFileThatCannotBeReadHasNotEnded) {
     const std::string memory = "/proc/self/mem";  // opens, and nothing can be read where it begins
     const Result<base::InputFile> file = base::InputFile::open(memory);

@@ -41,6 +41,14 @@ bool is_packed(int descriptor, struct stat& status) {
            ::pread(descriptor, magic.data(), magic.size(), 0) == 2 && magic == std::array<char, 2>{'\x1f', '\x8b'};
 }
 
+/// Checked out without Git LFS, a file is a few lines that say where it is.
+bool is_lfs_pointer(int descriptor) {
+    constexpr std::string_view begin = "version https://git-lfs.github.com/spec/";
+    std::array<char, begin.size()> head{};
+    return ::pread(descriptor, head.data(), head.size(), 0) == static_cast<ssize_t>(head.size()) &&
+           std::string_view(head.data(), head.size()) == begin;
+}
+
 }  // namespace
 
 std::optional<std::string> unpacked_head(int descriptor, std::size_t size) {
@@ -63,6 +71,9 @@ std::optional<std::string> unpacked_head(int descriptor, std::size_t size) {
 }
 
 Status unpack(int& descriptor, const std::string& path, Text text) {
+    if (is_lfs_pointer(descriptor))
+        return file_error(path, "this is a pointer of Git LFS, and not the file that it stands for", {}, {},
+                          "fetch the file with `git lfs pull`");
     struct stat status {};
     if (!is_packed(descriptor, status)) return Done{};
     if (text != Text::none) {
