@@ -219,6 +219,65 @@ meshio.Mesh(x, cells, cell_data={"q": [[5.], [1., 2.], [3.], [7.], [9.]]}).write
     EXPECT_EQ(lines_of(quad.out).at(4), "0,1,0,vertex") << quad.out;
 }
 
+/// meshio keeps the last block of nodes alone; a number in two blocks is one of two parts.
+TEST_F(Converted, SeveralBlocksOfNodesOfAbaqus) {
+    const std::string two =
+        "*NODE\n10, 0, 0, 0\n20, 1, 0, 0\n*NODE\n30, 0, 1, 0\n40, 0, 0, 1\n*ELEMENT, TYPE=C3D4\n1, 10, 20, 30, 40\n"
+        "*NODE\n5, 1, 1, 1\n*ELEMENT, TYPE=C3D4\n2, 20, 30, 40, 5\n";
+    scratch_.put("a.inp", two);
+    const Ended rows = barycert({"sample", "a.inp", "--points", "a.inp", "--output", "-", "--quiet"});
+    EXPECT_EQ(rows.code, 0) << rows.err;
+    EXPECT_EQ(rows.out,
+              "x,y,z,cell,feature\n0,0,0,0,vertex\n1,0,0,0,vertex\n0,1,0,0,vertex\n0,0,1,0,vertex\n1,1,1,1,vertex\n");
+    scratch_.put("b.inp", two + "*NODE\n30, 9, 9, 9\n");
+    const Ended twice = barycert({"check", "b.inp"});
+    EXPECT_EQ(twice.code, 2);
+    EXPECT_TRUE(contains(twice.err, "b.inp: a number of two nodes") && contains(twice.err, "node 30")) << twice.err;
+    scratch_.put("c.inp", two + "*NODE\n31, 9, 9\n");
+    EXPECT_EQ(barycert({"check", "c.inp"}).code, 2);
+}
+
+TEST_F(Converted, ZonesOfSu2) {
+    const std::string zone = "NDIME= 2\nNELEM= 1\n5 0 1 2 0\nNPOIN= 3\n0 0 0\n1 0 1\n0 1 2\nNMARK= 0\n";
+    scratch_.put("one.su2", "NZONE= 1 % all\nIZONE= 1\n" + zone);
+    EXPECT_EQ(barycert({"check", "one.su2"}).code, 0);
+    scratch_.put("two.su2", "NZONE=2\nIZONE= 1\n" + zone + "IZONE= 2\n" + zone);
+    scratch_.put("more.su2", zone + zone);
+    for (const char* name : {"two.su2", "more.su2"}) {
+        const Ended zones = barycert({"check", name});
+        EXPECT_EQ(zones.code, 2);
+        EXPECT_TRUE(contains(zones.err, std::string(name) + ": a mesh of SU2 in several zones")) << zones.err;
+    }
+}
+
+TEST_F(Converted, GeometriesOfKratos) {
+    const std::string nodes = "Begin Nodes\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\nEnd Nodes\n";
+    const std::string geometries = "Begin Geometries Tetrahedra3D4 // all\n1 1 2 3 4\nEnd Geometries\n";
+    scratch_.put("a.mdpa", nodes + geometries);
+    const Ended check = barycert({"check", "a.mdpa"});
+    EXPECT_EQ(check.code, 0) << check.err;
+    EXPECT_TRUE(contains(check.out, "1 cell")) << check.out;
+    scratch_.put("b.mdpa", nodes + "Begin Elements Element3D4N\n1 0 1 2 3 4\nEnd Elements\n" + geometries);
+    const Ended both = barycert({"check", "b.mdpa"});
+    EXPECT_EQ(both.code, 0) << both.err;
+    EXPECT_TRUE(contains(both.out, "geometries, beside the elements")) << both.out;
+    scratch_.put("c.mdpa", "Begin Nodes\n1 0 0 0\n3 1 0 0\n2 0 1 0\n4 0 0 1\nEnd Nodes\n" + geometries);
+    const Ended order = barycert({"check", "c.mdpa"});
+    EXPECT_EQ(order.code, 2);
+    EXPECT_TRUE(contains(order.err, "node 3 in place of 2")) << order.err;
+}
+
+TEST_F(Converted, SurfacesInSpace) {
+    scratch_.put("a.inp",
+                 "*NODE\n1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,0\n5,0,0,1\n6,1,0,1\n7,1,1,1\n8,0,1,1\n"
+                 "*ELEMENT, TYPE=S4\n1, 1,4,3,2\n2, 5,6,7,8\n3, 1,2,6,5\n4, 2,3,7,6\n5, 3,4,8,7\n"
+                 "*ELEMENT, TYPE=S3\n6, 4,1,5\n7, 4,5,8\n");
+    const Ended check = barycert({"check", "a.inp"});
+    EXPECT_EQ(check.code, 0) << check.err;
+    EXPECT_TRUE(contains(check.out, "12 triangles")) << check.out;
+    EXPECT_TRUE(contains(check.err + check.out, "5 polygons, which are cut into triangles")) << check.err;
+}
+
 TEST_F(Converted, ItIsTurnedOffByAnEmptyVariable) {
     scratch_.put("a.inp", abaqus);
     const Ended off = run({"check", scratch_.path("a.inp")}, {.environment = {"BARYCERT_MESHIO="}});

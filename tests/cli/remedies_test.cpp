@@ -78,7 +78,7 @@ const Remedy remedies[] = {
     {"abaqus_of_a_closed_surface", "meshio",
      "printf '*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n*ELEMENT, TYPE=STRI3\n1, 1, 3, 2\n2, 1, 2, 4\n3, "
      "2, 3, 4\n4, 3, 1, 4\n' > s.inp",
-     "check s.inp", "check s.1"},
+     "render mesh s.inp --output b.png", "check s.1"},
     {"medit_of_a_closed_surface", "meshio",
      "printf 'MeshVersionFormatted 2\nDimension 3\nVertices\n4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\nTriangles\n4\n1 3 "
      "2 "

@@ -109,6 +109,10 @@ TEST(MeshFormat, FilesThatMeshioReads) {
     const std::vector<Other> others{
         {"a.inp", "", "abaqus", ""},
         {"a", "*Heading\n", "abaqus", ""},
+        {"a.msh", "** a comment\n\n*NODE, NSET=a\n", "abaqus", ""},
+        {"a.inp", "# a comment\n3 1 0 0 0\n1 0 0 0\n", "avsucd", ""},
+        {"a.inp", "3 1 0 0 0\n1 2 3\n", "abaqus", ""},
+        {"a.ucd", "", "avsucd", ""},
         {"a.xdmf", "", "xdmf", ""},
         {"a.vtu", "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">", "xdmf", ""},
         {"a.xmf", "", "xdmf", ""},

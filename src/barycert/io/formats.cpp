@@ -244,7 +244,7 @@ Result<Mesh> io::read_mesh_in_space(const std::string& path, const ReadOptions& 
         return on_threads(options.threads, [&] { return read_vtk_in_space(path, options, space); });
     if (*format == MeshFormat::medit)
         return on_threads(options.threads, [&] { return read_medit(path, options, space); });
-    if (*format == MeshFormat::by_meshio) return read_converted(path, meshio_format(path));
+    if (*format == MeshFormat::by_meshio) return read_converted(path, meshio_format(path), space);
     return read_tetgen(path, options);
 }
 

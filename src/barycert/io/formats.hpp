@@ -173,6 +173,9 @@ const OtherFormat* packed_format(std::string_view head);
 /// That the file is not read, and what to do.
 Error other_format_error(const OtherFormat& format, const std::string& path);
 
+/// The command that makes one grid of the pieces of a file, in backquotes.
+std::string one_grid_command(const std::string& path);
+
 /// How to cut the cells of a file of VTK into simplices.
 std::string to_simplices(const std::string& path);
 
@@ -190,7 +193,7 @@ inline constexpr const char* formats_read =
 /// Reads a mesh by way of meshio, whose name of the format is `format`: nodes and cells in its order, which is told
 /// with its version and what it printed. Error: run_meshio(); meshio cannot read the file; read_vtk(); what comes back
 /// differs from what meshio counted.
-Result<Mesh> read_converted(const std::string& path, const std::string& format);
+Result<Mesh> read_converted(const std::string& path, const std::string& format, InSpace* space);
 
 /// By the first bytes of a file, behind a byte-order mark.
 bool is_medit(std::string_view head);

@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
+#include <cctype>
 #include <filesystem>
 
 #include "barycert/io/formats.hpp"
+#include "barycert/io/number_word.hpp"
 #include "barycert/io/vtk/numbers.hpp"
 
 namespace barycert::io {
@@ -22,7 +24,7 @@ constexpr std::array formats{
     OtherFormat{" .bdf .nas .fem ", "a file of Nastran", "", "nastran"},
     OtherFormat{" .foam .openfoam ", "a case of OpenFOAM", "{paraview}"},
     OtherFormat{" .xml ", "an XML file, perhaps a mesh of DOLFIN", "", "dolfin-xml"},
-    OtherFormat{" .avs ", "a mesh of AVS", "", "avsucd"},
+    OtherFormat{" .avs .ucd ", "a mesh of AVS", "", "avsucd"},
     OtherFormat{" .ugrid ", "a mesh of UGRID", "", "ugrid"},
     OtherFormat{" .mdpa ", "a mesh of Kratos", "", "mdpa"},
     OtherFormat{" .f3grid ", "a mesh of FLAC3D", "", "flac3d"},
@@ -35,7 +37,7 @@ constexpr std::array formats{
                 "mesh it first with `barycert mesh {in}`"},
     OtherFormat{" .geo .geo_unrolled .brep .step .stp .iges .igs ", "a geometry, not a mesh",
                 "mesh it with `gmsh -3 {in} -format msh41 -o {msh}` (-2 for triangles)"},
-    OtherFormat{" .vtkhdf ", "a VTKHDF file", "{paraview}"},
+    OtherFormat{" .vtkhdf ", "a VTKHDF file", "{paraview}; ParaView 5.11 reads version 1 of the format alone"},
     OtherFormat{" .h5 .hdf5 .hdf ", "an HDF5 file", "if it belongs to an .xdmf file, name that"},
     OtherFormat{" .nc ", "a NetCDF file", "", "exodus"},
     OtherFormat{" .tgz ", "a TAR archive", "unpack it with `tar -xzf {in}`"},
@@ -75,6 +77,36 @@ bool is_freefem(std::string_view head) {
     return words.size() == 3 && std::ranges::all_of(words, [](std::string_view word) {
                return word.find_first_not_of("0123456789") == std::string_view::npos;
            });
+}
+
+/// The next line that is neither blank nor a comment; taken off.
+std::string_view next_line_of(std::string_view& text, std::string_view comment) {
+    while (!text.empty()) {
+        std::string_view line = text.substr(0, text.find('\n'));
+        text.remove_prefix(std::min(line.size() + 1, text.size()));
+        line.remove_prefix(std::min(line.find_first_not_of(" \t\r"), line.size()));
+        if (!line.empty() && !line.starts_with(comment)) return line;
+    }
+    return {};
+}
+
+/// A keyword of Abaqus, behind comments.
+bool is_abaqus(std::string_view head) {
+    const std::string_view line = next_line_of(head, "**");
+    return line.size() > 1 && line[0] == '*' && std::isalpha(static_cast<unsigned char>(line[1])) != 0;
+}
+
+/// Five counts, then an integer and three coordinates.
+bool is_ucd(std::string_view head) {
+    const auto are = [](std::string_view line, std::size_t integers, std::size_t reals) {
+        const std::vector<std::string_view> words = cut_fields(line, " \t\r", "");
+        if (words.size() != integers + reals) return false;
+        for (std::size_t i = 0; i < words.size(); ++i) {
+            if (i < integers ? !whole_number<std::uint64_t>(words[i]) : !real_of_word(words[i], true)) return false;
+        }
+        return true;
+    };
+    return are(next_line_of(head, "#"), 5, 0) && are(next_line_of(head, "#"), 1, 3);
 }
 
 /// HDF5, NetCDF and ZIP hold many formats: which, is told by the suffix, if that is one of these.
@@ -161,12 +193,14 @@ const OtherFormat* other_format_by_content(std::string_view head, std::string_vi
     const bool msh = has_suffix(path, ".msh");
     if (msh && text.starts_with('(')) return &fluent;
     if (msh && is_freefem(text)) return &freefem;
+    if (msh && is_abaqus(text)) return by_suffix(".inp");
     if (text.starts_with("ply")) return by_suffix(".ply");
     if (strict) return nullptr;
     const std::string_view word = first_word(text, '%');
     if (word.starts_with("NDIME=")) return by_suffix(".su2");
     if (first_word(text, '#') == "mesh3d") return by_suffix(".vol");
-    if (lower(word).starts_with("*heading") || lower(word).starts_with("*node")) return by_suffix(".inp");
+    if (is_abaqus(text)) return by_suffix(".inp");
+    if (is_ucd(text)) return by_suffix(".avs");
     if (word == "-1") return by_suffix(".unv");
     if (text.starts_with("OFF") || text.starts_with("solid ")) return by_suffix(".stl");
     if (word == "SOL" || word == "CEND" || word == "BEGIN") return by_suffix(".bdf");
@@ -176,6 +210,10 @@ const OtherFormat* other_format_by_content(std::string_view head, std::string_vi
 std::string gmsh_command(const std::string& path) {
     return "`gmsh " + shell_word(path) + " -save -save_all -format msh41 -o " + shell_word(stem_of(path) + "-new.msh") +
            "`";
+}
+
+std::string one_grid_command(const std::string& path) {
+    return paraview_command(path, stem_of(path) + "-grid.vtu");
 }
 
 std::string to_simplices(const std::string& path) {
@@ -193,9 +231,13 @@ std::string plane_remedy(std::span<const double> points, const std::string& path
     if (const double z = points.size() < 3 ? 0 : points[2]; z != 0 && in_plane(points, z))
         return "the mesh lies in the plane z = " + base::shortest(z) + ": give its nodes z = 0";
     if (path.empty()) return "only what lies in the plane z = 0 is taken";
-    const std::string stl = shell_word(stem_of(path) + ".stl");
-    return "a surface in space is no mesh here; if it is closed, fill it: `meshio convert " + shell_word(path) + " " +
-           stl + "`, then `barycert mesh " + stl + "`";
+    const std::string file = stem_of(path) + ".stl", stl = shell_word(file);
+    // meshio reads no files of VTK but these two.
+    const bool paraview = is_vtk_file(path) && !has_one_of(path, {".vtu", ".vtk"});
+    return "a surface in space is no mesh here; if it is closed, fill it: " +
+           (paraview ? paraview_command(path, file, "ExtractSurface(MergeBlocks(OpenDataFile(sys.argv[1])))")
+                     : "`meshio convert " + shell_word(path) + " " + stl + "`") +
+           ", then `barycert mesh " + stl + "`";
 }
 
 std::string freefem_command(const std::string& path) {

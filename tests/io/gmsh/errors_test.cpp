@@ -27,11 +27,14 @@ struct Case {
 TEST(GmshErrors, WithLineAndRemedy) {
     const std::string good = head + nodes + elements;
     ASSERT_TRUE(read_bytes(good));
+    EXPECT_TRUE(read_bytes(with(good, "4.1 0 8", "4.100000 0 8"))) << "as some write it";
     const std::string old = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n1\n1 0 0 0\n$EndNodes\n$Elements\n";
     const std::vector<Case> cases{
         {"", 1, "not a file of Gmsh", "a first line \"$MeshFormat\"", "the end of the file"},
         {"solid x\n", 1, "not a file of Gmsh", nullptr, "\"solid\""},
         {"$NOD\n1\n", 1, "a .msh file of version 1", "version 2.2 or 4.1", "\"$NOD\""},
+        {with(good, "4.1 0 8", "4.10001 0 8"), 2, "unknown version of the format", "2.2 or 4.1", "\"4.10001\""},
+        {with(good, "4.1 0 8", "4.1x 0 8"), 2, "unknown version of the format", "2.2 or 4.1", "\"4.1x\""},
         {with(good, "4.1 0 8", "3 0 8"), 2, "unknown version of the format", "2.2 or 4.1", "\"3\""},
         {with(good, "4.1 0 8", "4 1 8"), 2, "a binary file of version 4.0", "version 4.1 or 2.2", "\"4\""},
         {with(good, "4.1 0 8", "4.1 1 4"), 2, "bad data size in $MeshFormat", "8 in a binary file", "\"4\""},

@@ -30,7 +30,12 @@ TEST(MeditErrors, Text) {
     const std::vector<Refused> all{
         {"MFEM mesh v1.0\n", 1, "not a file of Medit", nullptr, "\"MFEM\""},
         {"", 1, "not a file of Medit", nullptr, "an empty file"},
-        {"MeshVersionFormatted 5\n", 1, "the version of the format", "a number from 1 to 4", "\"5\""},
+        {"MeshVersionFormatted 5\n", 1, "the version of the format", "a number from 0 to 4", "\"5\""},
+        {"MeshVersionFormatted 2 3\n" + nodes, 1, "more behind the version of the format", "a keyword", "\"3\""},
+        {"MeshVersionFormatted 0\nMeshVersionFormatted 0\n", 2, "the version of the format again", "it once",
+         "it twice"},
+        {head + "Vertices\n1\n0,5 0 0 0\n" + cells, 5, "row 1 (from 1) of Vertices", "a number", "\"0,5\""},
+        {head + "Vertices\n1\n0x10 0 0 0\n" + cells, 5, "row 1 (from 1) of Vertices", "a number", "\"0x10\""},
         {"MeshVersionFormatted\n", 2, "the version of the format", nullptr, "the end of the section"},
         {"MeshVersionFormatted 2\n" + nodes + cells, 1, "the dimension", "a keyword Dimension", "none"},
         {"MeshVersionFormatted 2\nDimension\n4\n" + nodes, 3, "the dimension", "a number from 2 to 3", "\"4\""},

@@ -2,6 +2,8 @@
 
 #include <cstring>
 
+#include "barycert/io/number_word.hpp"
+
 namespace barycert::io {
 namespace {
 
@@ -71,9 +73,10 @@ void MshFile::read_format() {
     if (words.size() != 3)
         refuse(line, "bad $MeshFormat", "version, file type and data size, such as 4.1 0 8", word_at(line, end()),
                save_remedy);
-    constexpr std::array<std::pair<std::string_view, int>, 7> versions{
-        {{"2", 22}, {"2.0", 22}, {"2.1", 22}, {"2.2", 22}, {"4", 40}, {"4.0", 40}, {"4.1", 41}}};
-    const auto* const version = std::ranges::find_if(versions, [&](const auto& v) { return v.first == words[0]; });
+    // As a number: some write 2.200000.
+    constexpr std::array<std::pair<double, int>, 5> versions{{{2, 22}, {2.1, 22}, {2.2, 22}, {4, 40}, {4.1, 41}}};
+    const double number = real_of_word(words[0], true).value_or(0);
+    const auto* const version = std::ranges::find_if(versions, [&](const auto& v) { return v.first == number; });
     if (version == versions.end())
         refuse(line, "unknown version of the format", "2.2 or 4.1", base::quoted(words[0]),
                words[0].starts_with("2.") || words[0].starts_with("3") ? convert_remedy : save_remedy);
@@ -333,7 +336,12 @@ void refuse_row(const MshFile& file, std::string_view section, const char* at, c
     const std::string found = fault.number ? std::to_string(*fault.number)
                               : text       ? word_at(at, file.end())
                                            : "another one";
-    file.refuse(at, what, fault.expected, found, fault.remedy);
+    std::string remedy = fault.remedy;
+    if (remedy.empty() && text && !fault.number) {
+        std::string_view rest(at, static_cast<std::size_t>(file.end() - at));
+        remedy = about_real(next_word(rest), {}, {}).remedy;
+    }
+    file.refuse(at, what, fault.expected, found, remedy);
 }
 
 }  // namespace barycert::io

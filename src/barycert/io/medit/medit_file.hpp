@@ -1,6 +1,7 @@
 /// Medit's files (the Gamma mesh format), text and binary: what sections there are, and the numbers in them.
 ///
-/// text    MeshVersionFormatted VERSION, then keywords with what belongs to them, words parted by white space;
+/// text    MeshVersionFormatted VERSION (0, as bamg writes, to 4), then keywords with what belongs to them, words
+/// parted by white space;
 ///         # starts a comment that goes to the end of the line. Vertices, cells: COUNT, rows. SolAt...: COUNT, the
 ///         number of fields, the type of each, rows. The last keyword is End, which may be missing.
 /// binary  1 (whose bytes tell their order), version; then keyword, place of the next keyword, data, as above, up to
@@ -13,6 +14,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "barycert/io/tetgen/scanner.hpp"
 #include "barycert/io/vtk/raw_grid.hpp"
 
 namespace barycert::io::medit {
@@ -228,7 +230,7 @@ private:
                 refuse(body.data(), "text after the keyword End", "the end of the file", "more");
             }
             if (same_word(keyword, "MeshVersionFormatted")) {
-                set_header(version_, body, 1, 4);
+                set_header(version_, body, 0, 4);
             } else if (same_word(keyword, "Dimension")) {
                 set_header(dimension_, body, 2, 3);
             } else {
@@ -285,9 +287,15 @@ private:
     }
 
     void set_header(std::int64_t& number, std::string_view text, std::int64_t least, std::int64_t most) {
-        const char* const what = &number == &version_ ? "the version of the format" : "the dimension";
-        if (number != 0) refuse(text.data(), std::string(what) + " again", "it once", "it twice");
+        const bool is_version = &number == &version_;
+        const char* const what = is_version ? "the version of the format" : "the dimension";
+        if (is_version ? has_version_ : number != 0)
+            refuse(text.data(), std::string(what) + " again", "it once", "it twice");
+        has_version_ = has_version_ || is_version;
         number = take_count(text, 4, what, least, most);
+        if (binary_) return;
+        if (const std::string_view more = next_word(text); !more.empty())
+            refuse(more.data(), std::string("more behind ") + what, "a keyword", base::quoted(more));
     }
 
     std::int64_t take_count(std::string_view& text, std::size_t bytes, const char* what, std::int64_t least,
@@ -325,7 +333,8 @@ private:
                    cut_short);
         if (fault)
             refuse_in(section, rows, fault.index / width, fault.index % width,
-                      fault.index % width < reals ? "a number" : "an integer", base::quoted(fault.text));
+                      fault.index % width < reals ? "a number" : "an integer", base::quoted(fault.text),
+                      about_real(fault.text, {}, {}).remedy);
         if (const char* const at = text.data(); !next_word(text).empty())
             refuse(at, "more numbers in " + section.name, wanted, "more", "mend the count, or the dimension");
         if (integers == 0 || reals == 0) return rows;
@@ -356,7 +365,7 @@ private:
     base::MappedFile data_;
     std::vector<char> uncommented_;  ///< the text, with blanks for comments, if it has any
     std::string_view bytes_;
-    bool binary_ = false, swapped_ = false;
+    bool binary_ = false, swapped_ = false, has_version_ = false;
     std::int64_t version_ = 0, dimension_ = 0;
     std::vector<MeditSection> sections_;
 };
