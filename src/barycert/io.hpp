@@ -171,8 +171,8 @@ Status write_vtu(const Mesh& mesh, const std::string& path, VtkData data = VtkDa
 //
 // TetGen gets arrays: its own loaders read `010` as 8 and `1.0D+03` as 1, shift columns at a `nan`, ignore node numbers
 // and crash on truncated files. In: .poly .smesh (nodes in the file or in STEM.node); .off, .obj; .stl and .ply, text
-// or binary. Memory stays within a small multiple of the file's size. A number with which the file ends is refused, for
-// more digits may have been cut. Indices in memory are 0-based.
+// or binary. Memory stays within a small multiple of the file's size. A number with which the file ends is taken, and
+// told, for more digits may have been cut. Indices in memory are 0-based.
 
 struct PlcFacet {
     std::vector<std::vector<std::int32_t>> polygons;  ///< rings of nodes; a ring of two is a segment
@@ -191,6 +191,7 @@ struct Plc {
     std::vector<double> regions;  ///< 5 numbers a region: a point inside, an attribute, a largest volume
     int index_base = 0;           ///< 0 or 1: the file's own numbering
     bool nodes_apart = false;     ///< the nodes were in STEM.node
+    Notes notes = {};             ///< what the file has besides, and what it does not say
 
     std::size_t point_count() const { return points.size() / 3; }
 };

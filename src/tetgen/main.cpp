@@ -119,6 +119,9 @@ int run(const Options& options) {
     const auto start = std::chrono::steady_clock::now();
     const Plc plc = read_plc(options.input).value();
     check_output(options, plc);
+    for (const Note& note : plc.notes) {
+        if (!options.quiet) fmt::print(stderr, "note: {}\n", message(note));
+    }
 
     const ChildOutcome outcome =
         run_in_child([&](const Answer& answer) { mesh_and_write(options, plc, answer); }, options.timeout);

@@ -239,6 +239,7 @@ Result<CheckedMesh> check_files(const CheckJob& job) try {
             refuse(job.mesh, "job.plc needs a mesh of tetrahedra", "", "triangles in the plane",
                    "leave the option out");
         plc = read_plc(job.plc).value();
+        checked.mesh.notes.insert(checked.mesh.notes.end(), plc.notes.begin(), plc.notes.end());
         options.plc = &plc;
     }
     checked.name = tetgen_stem(job.mesh);

@@ -127,6 +127,30 @@ TEST(Polygons, StlJoinsEqualCorners) {
     EXPECT_EQ(same.points, s.points);
     EXPECT_EQ(same.cells, s.cells);
     EXPECT_FALSE(read_surface(scratch.put("c.stl", text)));
+    std::string loud = text + "END SOLID a\n";
+    for (const auto& [from, to] : {std::pair("solid", "SOLID"), {"facet", "Facet"}, {"endloop", "end loop"}}) {
+        for (std::size_t at = 0; (at = loud.find(from, at)) != std::string::npos; at += std::string_view(to).size())
+            loud.replace(at, std::string_view(from).size(), to);
+    }
+    for (const char* before : {"", "\n\n", "  \t", "\xEF\xBB\xBF"}) {
+        const Surface other = read(scratch.put("d.stl", before + loud));
+        EXPECT_EQ(other.points, s.points) << before;
+        EXPECT_EQ(other.cells, s.cells) << before;
+        EXPECT_TRUE(other.notes.empty());
+    }
+}
+
+TEST(Polygons, BytesBehindABinaryFileAreTold) {
+    const Scratch scratch;
+    const Surface whole = read(scratch.put("a.stl", binary_stl()));
+    EXPECT_TRUE(whole.notes.empty());
+    const Surface more = read(scratch.put("b.stl", binary_stl() + std::string(7, 'x')));
+    EXPECT_EQ(more.cells, whole.cells);
+    ASSERT_EQ(more.notes.size(), 1);
+    EXPECT_TRUE(more.notes[0].text.starts_with("7 bytes behind the last of the 4 triangles")) << more.notes[0].text;
+    EXPECT_EQ(read(scratch.put("a.ply", ply("binary_little_endian") + "xyz")).notes.size(), 2) << "the edge, and these";
+    std::string none(100, '\0');  // no triangles, and something behind them
+    EXPECT_FALSE(read_surface(scratch.put("c.stl", none)));
 }
 
 TEST(Polygons, PolygonsBecomeTriangles) {
@@ -194,7 +218,7 @@ TEST(Polygons, BadFilesAreErrorsWithALine) {
     const std::string corner = "vertex 0 0 0\n", four = "facet\nouter loop\n" + corner + corner + corner + corner;
     std::string facets = "solid a\n";
     for (int i = 0; i < 3; ++i) facets += four + "endloop\nendfacet\n";
-    fails("a.stl", facets + "endsolid\n", ":8: cannot read");
+    fails("a.stl", facets + "endsolid\n", ":7: cannot read");
     fails("a.ply",
           "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float "
           "z\nend_header\nxx",

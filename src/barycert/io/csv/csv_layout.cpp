@@ -254,12 +254,15 @@ void check_cut(const FieldCutter& cutter, std::string_view line, std::size_t cou
                     "a closing quote, and then a separator or the end of the line", base::quoted(line),
                     "close the quote on the same line; double the quotes inside");
     const std::size_t fields = layout.role_of.size();
+    // Twice as many or so: of each number a comma made two.
+    const bool commas = layout.separator == ',' && count > fields;
     if (count != fields)
         refuse_line(
             place.file, place.line, std::string("too ") + (count < fields ? "few" : "many") + " fields in a line",
             std::to_string(fields) + ", separated by " + separator_name(layout.separator) + ", as in the first line",
             std::to_string(count),
-            "give every line the same columns; put fields that hold a separator in double quotes");
+            std::string("give every line the same columns; put fields that hold a separator in double quotes") +
+                (commas ? "; if commas are decimal ones, write points" : ""));
 }
 
 void parse_csv(std::string_view text, const CsvLayout& layout, int dimension, CsvPiece& piece) {

@@ -2,6 +2,7 @@
 #include "barycert/io/csv/csv_layout.hpp"
 #include "barycert/io/csv/line_reader.hpp"
 #include "barycert/io/npy/npy.hpp"
+#include "barycert/io/number_word.hpp"
 #include "barycert/io/streams.hpp"
 
 namespace barycert::io {
@@ -46,7 +47,7 @@ void take_line(std::string_view line, bool whole, const CsvLayout& layout, const
     for (std::string_view text; cutter.next(text); ++count) {
         const int component = count < layout.role_of.size() ? layout.role_of[count] : CsvLayout::passed_over;
         if (component < 0) continue;
-        const auto x = base::parse_double(text);
+        const std::optional<double> x = real_of_word(text, false);
         if (!x || is_inexact(text, *x))
             refuse_line(place.file, place.line, "a value of field \"" + field.name + '"',
                         x ? "an integer that a double holds exactly" : "a number", base::quoted(text),
@@ -78,6 +79,17 @@ Field read_csv_column(Field field, const std::string& path, const std::string& c
     return field;
 }
 
+/// Whether commas part some words and blanks or semicolons others, as in `0,5 0,25`: then commas may be decimal ones.
+bool has_mixed_separators(const std::vector<std::string_view>& words) {
+    bool commas = false, others = false;
+    for (std::size_t i = 1; i < words.size(); ++i) {
+        const char* const begin = words[i - 1].data() + words[i - 1].size();
+        const bool comma = std::find(begin, words[i].data(), ',') != words[i].data();
+        (comma ? commas : others) = true;
+    }
+    return commas && others;
+}
+
 Field read_text(Field field, const std::string& path, std::string_view bytes) {
     if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3);
     const char* const file_end = bytes.data() + bytes.size();
@@ -91,8 +103,11 @@ Field read_text(Field field, const std::string& path, std::string_view bytes) {
         ++line_number;
         const std::vector<std::string_view> words = cut_fields(line.substr(0, line.find('#')), " \t\r", ",;");
         if (words.empty()) continue;
+        if (has_mixed_separators(words))
+            refuse("one way to part numbers: blanks, commas or semicolons", base::quoted(line),
+                   "if commas are decimal ones, write points");
         for (const std::string_view word : words) {
-            const auto x = base::parse_double(word);
+            const std::optional<double> x = real_of_word(word, false);
             if (!x || is_inexact(word, *x))
                 refuse(x ? "an integer that a double holds exactly" : "numbers", base::quoted(word),
                        x ? "write it with a decimal point to round it"

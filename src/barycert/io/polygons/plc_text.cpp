@@ -1,7 +1,8 @@
-#include "barycert/io/polygons/polygons.hpp"
-
-#include <cmath>
 #include <filesystem>
+
+#include "barycert/io/number_word.hpp"
+#include "barycert/io/polygons/polygons.hpp"
+#include "barycert/io/tetgen/scanner.hpp"
 
 namespace barycert::io {
 
@@ -12,7 +13,7 @@ bool PlcText::next_line() {
         line_ = rest_.substr(0, rest_.find('\n'));
         rest_.remove_prefix(std::min(line_.size() + 1, rest_.size()));
         ++line_number_;
-        words_ = cut_fields(line_.substr(0, line_.find('#')), " \t\r,", "");
+        words_ = cut_fields(comments_ ? line_.substr(0, line_.find('#')) : line_, separators_, "");
     }
     return !words_.empty();
 }
@@ -30,27 +31,43 @@ std::string_view PlcText::take(std::string_view expected) {
     return words_[at_++];
 }
 
-std::string_view PlcText::take_whole(std::string_view expected) {
+std::string_view PlcText::take_numeric(std::string_view expected) {
     const std::string_view text = take(expected);
-    if (text.data() + text.size() == end_) throw Exception(base::unended_number(path_, line_number_));
+    ends_with_number_ = text.data() + text.size() == end_;
     return text;
 }
 
-std::int32_t PlcText::take_integer(std::string_view expected, char end) {
-    const std::string_view text = take_whole(expected);
-    std::string_view digits = text.substr(0, text.find(end));
-    if (digits.size() > 1 && digits[0] == '+' && digits[1] != '-') digits.remove_prefix(1);
-    const std::optional<std::int32_t> value = whole_number<std::int32_t>(digits);
-    if (!value) fail("cannot read", expected, text);
+std::int32_t PlcText::take_integer(std::string_view expected) {
+    const std::string_view text = take_numeric(expected);
+    const std::optional<std::int32_t> value = integer_of_word<std::int32_t>(text);
+    if (!value)
+        fail("cannot read", expected, text,
+             text.find(',') == std::string_view::npos ? "" : "part the numbers by blanks, without commas");
     return *value;
 }
 
 double PlcText::take_number(std::string_view expected, bool finite) {
-    const std::string_view text = take_whole(expected);
-    const std::optional<double> value = base::parse_double(text);
-    if (!value || (finite && !std::isfinite(*value)))
-        fail("cannot read", std::string(expected) + (finite ? ", a finite number" : ", a number"), text);
+    const std::string_view text = take_numeric(expected);
+    const std::optional<double> value = real_of_word(text, finite);
+    if (!value)
+        fail("cannot read", std::string(expected) + (finite ? ", a finite number" : ", a number"), text,
+             remedy_for_number(text));
     return *value;
+}
+
+void PlcText::need_end(std::string_view expected) const {
+    if (words_left() == 0) return;
+    // The commas that part words may be decimal ones.
+    const bool commas = line_.find(',') != std::string_view::npos;
+    fail("more words in a line than it may have", expected, line_.substr(line_.find_first_not_of(" \t")),
+         commas ? "commas part numbers here: if these are decimal ones, write points" : "");
+}
+
+void PlcText::note_last_number(Notes& notes) const {
+    if (ends_with_number_ && rest_.empty())
+        notes.push_back({Note::Kind::guessed,
+                         "the last line has no end: its last number is taken as whole, as nothing else is missing",
+                         path_, true});
 }
 
 std::size_t PlcText::take_count(std::string_view expected) {
@@ -69,7 +86,12 @@ void PlcText::fail(std::string_view what, std::string_view expected, std::string
     refuse_line(path_, line_number_, std::string(what), std::string(expected), std::move(shown), std::string(remedy));
 }
 
-std::string read_surface_text(const std::string& path, const std::function<void(PlcText&)>& check) {
+std::string remedy_for_number(std::string_view word) {
+    return about_real(word, {}, {}).remedy;
+}
+
+std::string read_surface_text(const std::string& path, Separators separators,
+                              const std::function<void(PlcText&)>& check) {
     std::error_code code;
     const std::filesystem::file_status status = std::filesystem::status(path, code);
     if (code == std::errc::permission_denied)
@@ -87,7 +109,7 @@ std::string read_surface_text(const std::string& path, const std::function<void(
         // It ends in the middle of a line: what is wrong with the whole ones is told.
         block = block.substr(0, block.rfind('\n') + 1);
         if (block.starts_with("\xEF\xBB\xBF")) block.remove_prefix(3);
-        PlcText in(path, block, size);
+        PlcText in(path, block, size, separators);
         const Status read = status_of([&] { check(in); });
         return in.rest().empty() ? Status(Done{}) : read;
     };

@@ -63,6 +63,7 @@ PlcTriangles triangles_of(const Plc& plc) {
     PlcTriangles all;
     all.surface.points = plc.points;
     all.surface.index_base = plc.index_base;
+    all.surface.notes = plc.notes;
     for (std::size_t i = 0; i < plc.facets.size(); ++i) {
         const PlcFacet& facet = plc.facets[i];
         const surface::FacetTriangles cut = surface::triangles_of_facet(plc.points, facet.polygons, facet.holes);

@@ -95,7 +95,11 @@ void check_field(const TextTable& table, const Columns& columns, std::string_vie
     const std::string found =
         std::to_string(fields.size()) + ", the first too many being " +
         (fields[expected].empty() ? "an empty one after a comma" : base::quoted(fields[expected]));
-    refuse_at(table, at, "too many columns in a row", described_columns(table), found, table.surplus_remedy);
+    // Commas part columns, and decimal ones make two of one.
+    const char* const last = fields.back().data() + fields.back().size();
+    const bool commas = std::find(at, last, ',') != last;
+    refuse_at(table, at, "too many columns in a row", described_columns(table), found,
+              table.surplus_remedy + (commas ? "; if commas are decimal ones, write points" : ""));
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // VTK's legacy files: words and numbers of them, sections made of these.
 
+#include "barycert/io/number_word.hpp"
 #include "barycert/io/vtk/raw_grid.hpp"
 
 namespace barycert::io {
@@ -40,11 +41,15 @@ public:
         std::string_view first = rest_of_line();
         const bool known = capitals(first.substr(0, start.size())) == capitals(start);
         if (known) first.remove_prefix(start.size());
-        const char* const end = first.data() + first.size();
-        if (!known || std::from_chars(first.data(), end, major_version_).ec != std::errc{}) {
+        const std::string_view shown_first = first, version = next_word(first);
+        const std::size_t dot = version.find('.');
+        const std::optional<int> major = whole_number<int>(version.substr(0, dot));
+        const bool minor = dot == std::string_view::npos || whole_number<unsigned>(version.substr(dot + 1));
+        if (!known || !major || !minor || !next_word(first).empty()) {
             rest_ = all;  // of the line itself, not of the next one
-            fail("the first line", "\"# vtk DataFile Version 4.2\" or the like", shown(first));
+            fail("the first line", "\"# vtk DataFile Version 4.2\" or the like", shown(shown_first));
         }
+        major_version_ = *major;
         rest_of_line();  // title
         const std::string type = take_keyword();
         if (type != "ASCII" && type != "BINARY") fail("the third line", "ASCII or BINARY", shown(type));
@@ -68,6 +73,12 @@ public:
         rest_.remove_prefix(std::min(text.size() + 1, rest_.size()));
         if (text.ends_with('\r')) text.remove_suffix(1);
         return text;
+    }
+    /// Nothing may stand between what announces numbers and their bytes.
+    void end_line(const std::string& what) {
+        const std::string_view more = rest_of_line();
+        if (more.find_first_not_of(" \t") != std::string_view::npos)
+            fail("the line before " + what, "its end", shown(more));
     }
     void expect(const char* wanted) {
         const std::string found = take_keyword();
@@ -106,7 +117,7 @@ public:
                 throw Exception(base::unended_number(file_.path, line_of(file_.bytes, rest_.data())));
             return file_.check(std::move(fault), begin, what, count, inexact);
         }
-        rest_of_line();
+        end_line(what);
         const std::optional<std::uint64_t> size = byte_count(type, count);
         if (!size || *size > rest_.size())
             fail(what, std::to_string(count) + " numbers", "the end of the file before that", cut_off);
@@ -207,7 +218,7 @@ private:
         if (keyword == "ORIGIN" || keyword == "SPACING" || keyword == "ASPECT_RATIO") {
             for (double& x : keyword == "ORIGIN" ? origin_ : spacing_) {
                 const std::string word = take_word();
-                x = base::parse_double(word).value_or(HUGE_VAL);
+                x = real_of_word(word, true).value_or(HUGE_VAL);
                 if (!std::isfinite(x)) fail("the origin or spacing of the grid", "a finite number", shown(word));
             }
             return true;
@@ -414,8 +425,11 @@ private:
         const std::string type = take_word();
         if (kind == "SCALARS") {
             // The number of components may be left out; the line of the lookup table may be, too.
-            if (const std::optional<std::uint64_t> count = parse_count(rest_of_line()); count.has_value())
-                components = static_cast<std::size_t>(std::min(*count, max_entities + 1));
+            const std::string_view more = rest_of_line();
+            const std::optional<std::uint64_t> count = parse_count(more);
+            if (!count && more.find_first_not_of(" \t") != std::string_view::npos)
+                fail("the components of array " + in_quotes(name), "a count, or the end of the line", shown(more));
+            if (count) components = static_cast<std::size_t>(std::min(*count, max_entities + 1));
             if (take("LOOKUP_TABLE")) take_name();
         }
         read_array(name, type, components, rows, arrays);

@@ -3,6 +3,7 @@
 #include <fast_float/fast_float.h>
 
 #include "barycert/io/formats.hpp"
+#include "barycert/io/number_word.hpp"
 #include "barycert/io/parallel.hpp"
 
 namespace barycert::io {
@@ -80,7 +81,7 @@ constexpr std::array<std::string_view, 12> type_names{"Bit BIT",
 template <class From>
 bool read_word(std::string_view word, From& value) {
     if constexpr (std::is_same_v<From, double>) {
-        const std::optional<double> number = base::parse_double(word);
+        const std::optional<double> number = real_of_word(word, false);
         value = number.value_or(0);
         return number.has_value();
     } else {

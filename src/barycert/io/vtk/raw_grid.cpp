@@ -1,4 +1,5 @@
 #include "barycert/io/vtk/raw_grid.hpp"
+#include "barycert/io/tetgen/scanner.hpp"
 
 #include <unordered_map>
 
@@ -17,7 +18,8 @@ void FileText::check(NumberFault fault, const char* begin, const std::string& wh
         case NumberFault::Kind::too_few:
             refuse(at, what, std::to_string(count) + " numbers", std::to_string(fault.index), cut_off);
         case NumberFault::Kind::no_number:
-            refuse(at, number, "a number of the type of the array", in_quotes(fault.text));
+            refuse(at, number, "a number of the type of the array", in_quotes(fault.text),
+                   about_real(fault.text, {}, {}).remedy);
         case NumberFault::Kind::not_exact:
             if (inexact == nullptr) refuse(at, number, "a number that fits what it stands for", fault.text);
             *inexact = std::move(fault);

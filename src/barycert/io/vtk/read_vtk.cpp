@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "barycert/io/number_word.hpp"
 #include "barycert/io/streams.hpp"
 #include "barycert/io/vtk/xml.hpp"
 
@@ -64,7 +65,7 @@ std::optional<Collection> files_of(const XmlTree& tree) {
         if (name.empty())
             tree.refuse_at(element, "an entry without a file", "an attribute " + std::string(attribute), "none");
         const std::string_view time = collection.is_series ? element.attribute_or("timestep", "0") : "0";
-        const double value = base::parse_double(time).value_or(HUGE_VAL);
+        const double value = real_of_word(time, true).value_or(HUGE_VAL);
         if (!std::isfinite(value)) tree.refuse_at(element, "the time of a step", "a finite number", in_quotes(time));
         collection.files.push_back({path_beside(tree.path, name), std::string(element.attribute_or("name", "")), value,
                                     line_of(tree.bytes, tree.bytes.data() + element.begin)});

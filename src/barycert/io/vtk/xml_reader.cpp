@@ -1,6 +1,7 @@
-#include "barycert/io/vtk/xml.hpp"
-
 #include <set>
+
+#include "barycert/io/number_word.hpp"
+#include "barycert/io/vtk/xml.hpp"
 
 namespace barycert::io {
 namespace {
@@ -14,7 +15,7 @@ std::optional<std::array<T, count>> parse_all(std::string_view text) {
     for (T& x : numbers) {
         const std::string_view word = next_word(text);
         if constexpr (std::is_same_v<T, double>) {
-            x = base::parse_double(word).value_or(HUGE_VAL);
+            x = real_of_word(word, true).value_or(HUGE_VAL);
             good = good && std::isfinite(x);
         } else {
             x = whole_number<T>(word).value_or(most + 1);
@@ -72,7 +73,10 @@ private:
                                   : data == nullptr        ? "no element of its type " + in_quotes(type)
                                                            : "type " + in_quotes(type);
         refuse_at(root(), "the kind of the file",
-                  "a VTKFile of type UnstructuredGrid, PolyData, ImageData, RectilinearGrid or StructuredGrid", found);
+                  "a VTKFile of type UnstructuredGrid, PolyData, ImageData, RectilinearGrid or StructuredGrid", found,
+                  has_word("PImageData PRectilinearGrid PStructuredGrid", type)
+                      ? "the grid is in pieces: make one of them with " + one_grid_command(path)
+                      : "");
     }
 
     std::size_t count_of(const XmlElement& piece, std::string_view key, std::size_t before) const {
@@ -322,10 +326,13 @@ private:
             read_numbers(to, of_points, may_label, [&](NumbersTo values, NumberFault& inexact) {
                 take_numbers(array, what, components * count, values, &inexact);
             });
-        } else if (array.attribute("type") != "String") {
+        } else if (array.attribute("type") == "String") {
+            if (takes_texts(to, may_label)) to.values = take_texts(array, what, count);
+        } else if (array.name == "DataArray") {
+            refuse_at(array, "the attribute type of " + what, "Int8 to UInt64, Float32, Float64, Bit or String",
+                      in_quotes(array.attribute_or("type", "")));
+        } else {
             to.fault = "it holds no numbers";
-        } else if (takes_texts(to, may_label)) {
-            to.values = take_texts(array, what, count);
         }
     }
 
