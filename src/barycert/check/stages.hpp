@@ -5,9 +5,9 @@
 
 #include "barycert/base/arena.hpp"
 #include "barycert/check.hpp"
-#include "barycert/core/scaled_double.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/index/box_tree.hpp"
+#include "barycert/index/exact_volumes.hpp"
 #include "barycert/index/facet_contact.hpp"
 #include "barycert/index/overlap.hpp"
 #include "barycert/predicates.hpp"
@@ -153,40 +153,6 @@ Found<T> up_to(std::size_t limit, std::size_t count, std::size_t block, Work wor
     found.list.resize(std::min(found.list.size(), limit));
     return found;
 }
-
-/// Signed volumes (areas in 2D) of the simplices of one mesh, as exact integers in one unit.
-///
-/// All coordinates of an axis become multiples of the largest power of two that divides them all, so volumes of
-/// different cells can be added up and compared exactly. As narrow integers as the whole mesh needs are used: one limb
-/// a coordinate if none needs more than 61 bits, two for 125, else as many as it takes.
-class ExactVolumes {
-public:
-    /// `points` holds d coordinates a node; what is not finite is left out, and must not be asked for.
-    ExactVolumes(int d, std::span<const double> points);
-
-    /// d! times the signed volume of the cell with d + 1 corners at p[0], p[1], ...: det(p1 - p0, p2 - p0, ...).
-    Integer cell(const double* const* p) const { return determinant_from(p + 1, p[0]); }
-
-    /// d! times the signed volume of the cone from the origin over the facet with d corners: det(p0, p1, ...).
-    Integer cone(const double* const* p) const { return determinant_from(p, nullptr); }
-
-    /// The integers from above count 2^unit().
-    int unit() const { return exponent_; }
-
-    /// floor(log2) of the volume that `n` from above stands for, to within d. Precondition: not zero.
-    int exponent(const Integer& n) const;
-
-    /// The volume that `n` from above stands for, divided by 2^(d * scale), correctly rounded.
-    double rounded(const Integer& n, int scale = 0) const;
-
-private:
-    Integer determinant_from(const double* const* p, const double* origin) const;
-
-    int d_;
-    int bits_ = 0;  ///< of the widest coordinate
-    core::Unit units_[3];
-    int exponent_ = 0;  ///< the integers count 2^exponent_
-};
 
 /// Where the corners of a cell stand. Precondition: it is usable.
 inline std::array<const double*, 4> corner_points(const Mesh& mesh, std::size_t cell) {

@@ -38,20 +38,20 @@ std::vector<Place> first_at_place(const CellIndex& index) {
 }  // namespace
 
 Triangles place_triangles(std::span<const double> points, std::span<const Mesh::Index> corners,
-                          std::span<const Mesh::Index> numbers) {
+                          std::span<const Mesh::Index> numbers, Flat of_flat) {
     Triangles all;
     std::vector<std::uint8_t> flat(numbers.size());
     const auto at = [&](std::size_t corner) { return &points[3 * static_cast<std::size_t>(corners[corner])]; };
     base::parallel_for_each(flat.size(), grain, [&](std::size_t i) {
         flat[i] = proper(3, {{}, {at(3 * i), at(3 * i + 1), at(3 * i + 2)}}) ? 0 : 1;
     });
+    for (std::size_t i = 0; i < flat.size(); ++i) {
+        if (flat[i] != 0) all.degenerate.push_back(numbers[i]);
+    }
     std::vector<Mesh::Index> kept, kept_numbers;
-    if (std::ranges::find(flat, 1) != flat.end()) {
+    if (!all.degenerate.empty() && of_flat == Flat::left_out) {
         for (std::size_t i = 0; i < flat.size(); ++i) {
-            if (flat[i] != 0) {
-                all.degenerate.push_back(numbers[i]);
-                continue;
-            }
+            if (flat[i] != 0) continue;
             kept.insert(kept.end(), &corners[3 * i], &corners[3 * i] + 3);
             kept_numbers.push_back(numbers[i]);
         }
@@ -64,6 +64,7 @@ Triangles place_triangles(std::span<const double> points, std::span<const Mesh::
     const std::size_t count = numbers.size();
     all.facets.resize(count);
     all.odd.resize(count);
+    if (of_flat == Flat::kept && !all.degenerate.empty()) all.flat.resize(count);
     base::parallel_for_each(count, grain, [&](std::size_t i) {
         CellRecord& cell = all.index.cells[i];
         for (Place& node : cell.node) node = all.same[static_cast<std::size_t>(node)];
@@ -76,9 +77,19 @@ Triangles place_triangles(std::span<const double> points, std::span<const Mesh::
         for (std::size_t k = 0; k < 3; ++k) f.at[k] = all.index.nodes[f.nodes[k]].at.data();
         all.odd[i] = swaps % 2;
         Mesh::Index& number = all.index.original[i];
+        if (!all.flat.empty()) all.flat[i] = flat[static_cast<std::size_t>(number)];
         number = numbers[static_cast<std::size_t>(number)];
     });
     return all;
+}
+
+void join_sides(const Triangles& triangles, std::span<const Ridge> ring, base::DisjointSets& sides) {
+    // Of a triangle that ascends, the side where its normal points looks forward in the turn.
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+        const Ridge &a = ring[i], &b = ring[(i + 1) % ring.size()];
+        sides.join(2 * std::size_t{a.facet} + (triangles.ascends(a) ? 0 : 1),
+                   2 * std::size_t{b.facet} + (triangles.ascends(b) ? 1 : 0));
+    }
 }
 
 }  // namespace barycert::index

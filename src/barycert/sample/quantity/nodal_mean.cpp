@@ -60,7 +60,7 @@ public:
         total_ = Integer();
         sums_.assign(components_, Integer());
         finite_.assign(components_, 1);
-        // Widths as in check/exact_volumes.cpp.
+        // Widths as in index/exact_volumes.cpp.
         core::with_integers<3>(core::max_bits(units), [&]<class T>() {
             for (const Mesh::Index cell : cells) add<T>(units, cell);
             return 0;

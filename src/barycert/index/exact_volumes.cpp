@@ -1,10 +1,10 @@
-#include "barycert/check/stages.hpp"
+#include "barycert/index/exact_volumes.hpp"
 
 #include <cmath>
 
 #include "barycert/core/numerators-inl.hpp"
 
-namespace barycert::check {
+namespace barycert::index {
 namespace {
 
 /// Of the rows p[0], ..., p[d - 1], less `origin` if there is one.
@@ -51,4 +51,4 @@ double ExactVolumes::rounded(const Integer& n, int scale) const {
     return core::round_quotient(n.sign() < 0, n.magnitude(), d_ == 2 ? two : six, exponent_ - d_ * scale);
 }
 
-}  // namespace barycert::check
+}  // namespace barycert::index
