@@ -1,16 +1,22 @@
 /// Exact queries of points and segments to a surface of triangles in space.
 ///
-/// Input: a Surface (read_surface), in any unit, and points in the same. Triangles of zero area count for nothing;
-/// nodes at one place are one. Output: on which triangle a point lies, or on which side; the nearest triangle and point
-/// of it; where a segment or ray meets the surface.
+/// Input: a Surface (read_surface), in any unit, and points in the same. Nodes at one place are one; a triangle of zero
+/// area is the segment or point that it is. Output: on which triangle a point lies, or on which side; the nearest
+/// triangle and point of it; where a segment or ray meets the surface.
 ///
 /// What holds, for every finite point (each law is a test of that name in tests/locate):
 ///   W1  A point that lies on a triangle is always found there, on its face, edge or vertex; of several triangles it is
 ///       the lowest.
-///   W2  The winding number of every other point is exact: how many times the surface goes around it, counted positive
-///       where normals (right hand) point away from it. A surface has one if each edge has as many triangles one way as
-///       the other: Turned::alike. A surface whose edges have an even number of triangles has the parity, 0 or 1, in
-///       its place: Turned::even. A point is inside if it is not 0.
+///   W2  The winding number of every other point is exact: how many times the surface goes around it, the sum of what
+///       its shells count (triangles connected over edges, without those that an edge of one triangle leaves open):
+///       Turned::alike    each edge has as many triangles one way as the other: how many times the shell goes around
+///                        it, positive where normals (right hand) point away from it;
+///       Turned::regions  another shell that meets itself in common nodes and edges alone: 1 in the regions that it
+///                        encloses, or -1 if normals of most of its triangles point into them. Triangles of the same
+///                        nodes are one;
+///       Turned::even     of all others, whose edges have an even number of triangles: the parity, 0 or 1;
+///       Turned::open     any other shell, and nobody knows what it would enclose: no point has a winding number.
+///       A point is inside if the sum is not 0.
 ///   N1  `nearest` is exact: no point of the surface is nearer than the one returned, and its triangle is the lowest
 ///       of all that have a point as near. Distance and coordinates are correctly rounded, and so are the weights of
 ///       the vertex, edge or face that the point lies on. A value of the surface there is the mean by these weights,
@@ -30,17 +36,27 @@ namespace locate {
 struct SurfaceData;
 }
 
-/// What there is to tell the two sides apart.
+/// What there is to tell the two sides of a surface apart (W2): of all its shells the least that one has.
 enum class Turned : std::uint8_t {
-    open,   ///< an edge has an odd number of triangles: there is no inside
-    even,   ///< parity
-    alike,  ///< winding numbers
+    open,     ///< there is no inside
+    even,     ///< parity
+    regions,  ///< what is enclosed
+    alike,    ///< winding numbers
+};
+
+/// How points inside are told from those outside.
+struct SideRules {
+    Turned turned = Turned::open;
+    std::uint64_t by_regions = 0;  ///< triangles of shells that are told by Turned::regions
+    std::uint64_t by_parity = 0;   ///< by Turned::even
+    std::uint64_t idle = 0;        ///< triangles that count for nothing, as they enclose nothing
+    Mesh::Index open = -1;         ///< the lowest triangle of a shell that is open; -1: there is none
 };
 
 struct SurfaceLocation {
     Mesh::Index triangle = -1;           ///< that holds the point; -1: none does
     Feature feature = Feature::outside;  ///< of the triangle; or `interior`, or `outside`
-    int winding = 0;                     ///< of a point on no triangle
+    int winding = 0;                     ///< W2, of a point on no triangle
 
     friend bool operator==(const SurfaceLocation&, const SurfaceLocation&) = default;
 };
@@ -55,9 +71,10 @@ struct SurfaceNearest : Nearest {
 /// A triangle that a segment meets.
 struct SurfaceHit {
     Mesh::Index triangle = -1;
-    Feature feature = Feature::outside;  ///< of the triangle; `degenerate`: the segment lies in its plane
+    /// Of the triangle; `degenerate`: the segment lies in its plane, or along one of zero area.
+    Feature feature = Feature::outside;
     double parameter = 0;  ///< 0 at the first end, 1 at the second; correctly rounded; of several the first
-    int side = 0;          ///< 1 if it leaves on the side of the normal, -1 on the other, 0 in the plane
+    int side = 0;  ///< 1 if it leaves on the side of the normal, -1 on the other, 0 in the plane or without a normal
 };
 
 /// Thread-safe.
@@ -65,11 +82,13 @@ class SurfaceLocator {
 public:
     /// The surface must stay as it is and outlive the locator. Time O(n log n). Error: not triangles in space; an index
     /// that is no node; a coordinate that is not finite. Takes `threads` of the options.
-    static Result<SurfaceLocator> build(const Surface& surface, const BuildOptions& options = {});
-    static Result<SurfaceLocator> build(Surface&&, const BuildOptions& = {}) = delete;
+    /// Without `flat`, triangles of zero area count for nothing.
+    static Result<SurfaceLocator> build(const Surface& surface, const BuildOptions& options = {}, bool flat = true);
+    static Result<SurfaceLocator> build(Surface&&, const BuildOptions& = {}, bool = true) = delete;
 
     const Surface& surface() const;
-    Turned turned() const;
+    const SideRules& sides() const;
+    Turned turned() const { return sides().turned; }
     std::size_t bytes() const;  ///< of memory besides the surface
 
     /// W1, W2. Of an open surface only W1 holds: points on no triangle are outside. Error: a coordinate is not finite.
@@ -83,7 +102,7 @@ public:
                    int threads = 0) const;
 
     /// N1, of that triangle alone for each point; of -1 nothing: what a map (map.hpp) knows without a search. Error:
-    /// also a number that is none of a triangle, or one of zero area.
+    /// also a number that is none of a triangle.
     Status nearest_on(std::span<const Mesh::Index> triangles, std::span<const double> points,
                       std::span<SurfaceNearest> found, int threads = 0) const;
 

@@ -112,7 +112,15 @@ py::list hits(SurfaceObject& object, const Given<double>& ends, bool ray) {
 
 const char* turned(SurfaceObject& object) {
     const Turned turned = object.locator(Progress()).turned();
-    return turned == Turned::alike ? "alike" : turned == Turned::even ? "even" : "open";
+    return turned == Turned::alike     ? "alike"
+           : turned == Turned::regions ? "regions"
+           : turned == Turned::even    ? "even"
+                                       : "open";
+}
+
+/// The lowest triangle of a shell that is open; -1: none.
+Mesh::Index first_open(SurfaceObject& object) {
+    return object.locator(Progress()).sides().open;
 }
 
 }  // namespace
@@ -129,6 +137,7 @@ void bind_surface(py::module_& module) {
         .def_property_readonly(
             "notes", [](const Shared& s) { return list_of(s->data.notes, [](const Note& n) { return message(n); }); })
         .def_property_readonly("turned", &turned)
+        .def_property_readonly("first_open", &first_open)
         .def("check", &check_of)
         .def("locate", &locate)
         .def("nearest", &nearest)

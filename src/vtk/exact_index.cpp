@@ -113,7 +113,8 @@ Status ExactIndex::build() {
         if (built) std::ranges::move(notes_of_maps(*locator, shape.interpolation, {}), std::back_inserter(notes));
         return built;
     }
-    Result<SurfaceLocator> made = SurfaceLocator::build(surface);
+    // Without those of zero area, of which VTK's weights and parametric coordinates are of no use.
+    Result<SurfaceLocator> made = SurfaceLocator::build(surface, {}, false);
     if (!made) return made.error();
     on_surface.emplace(std::move(*made));
     return Done{};

@@ -55,7 +55,29 @@ inline std::array<mpq_class, 3> weights_in(const RationalTriangle& t, const Rati
     return {1 - b - c, b, c};
 }
 
+/// The square of the distance of a point from a triangle, which may be flat.
+inline mpq_class square_to(const RationalTriangle& t, const Rational3& p) {
+    if (!is_flat(t)) {
+        const auto w = weights_in(t, p);
+        if (w[0] >= 0 && w[1] >= 0 && w[2] >= 0) {
+            const Rational3 n = outer(t[1] - t[0], t[2] - t[0]);
+            const mpq_class h = inner(n, p - t[0]);
+            return h * h / inner(n, n);
+        }
+    }
+    mpq_class best = -1;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Rational3 e = t[(i + 1) % 3] - t[i];
+        const mpq_class length = inner(e, e);
+        const mpq_class s = length == 0 ? mpq_class(0) : std::clamp<mpq_class>(inner(p - t[i], e) / length, 0, 1);
+        const Rational3 away = p - between(t[i], t[(i + 1) % 3], s);
+        if (const mpq_class square = inner(away, away); best < 0 || square < best) best = square;
+    }
+    return best;
+}
+
 inline bool lies_on(const RationalTriangle& t, const Rational3& p) {
+    if (is_flat(t)) return square_to(t, p) == 0;
     if (inner(outer(t[1] - t[0], t[2] - t[0]), p - t[0]) != 0) return false;
     return std::ranges::all_of(weights_in(t, p), [](const mpq_class& w) { return w >= 0; });
 }
@@ -85,24 +107,6 @@ inline std::vector<Rational3> common_points(const RationalTriangle& a, const Rat
         }
     }
     return all;
-}
-
-/// The square of the distance of a point from a triangle that is not flat.
-inline mpq_class square_to(const RationalTriangle& t, const Rational3& p) {
-    const auto w = weights_in(t, p);
-    if (w[0] >= 0 && w[1] >= 0 && w[2] >= 0) {
-        const Rational3 n = outer(t[1] - t[0], t[2] - t[0]);
-        const mpq_class h = inner(n, p - t[0]);
-        return h * h / inner(n, n);
-    }
-    mpq_class best = -1;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const Rational3 e = t[(i + 1) % 3] - t[i];
-        const mpq_class s = std::clamp<mpq_class>(inner(p - t[i], e) / inner(e, e), 0, 1);
-        const Rational3 away = p - between(t[i], t[(i + 1) % 3], s);
-        if (const mpq_class square = inner(away, away); best < 0 || square < best) best = square;
-    }
-    return best;
 }
 
 // Surfaces.

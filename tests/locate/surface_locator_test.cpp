@@ -6,6 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <numbers>
+#include <numeric>
+#include <optional>
+#include <set>
 
 #include "check/surfaces.hpp"
 
@@ -55,7 +60,6 @@ void expect_nearest(const Surface& s, const std::vector<RationalTriangle>& trian
     mpq_class best = -1;
     Mesh::Index lowest = -1;
     for (std::size_t t = 0; t < triangles.size(); ++t) {
-        if (is_flat(triangles[t])) continue;
         const mpq_class square = square_to(triangles[t], at);
         if (best >= 0 && square >= best) continue;
         best = square;
@@ -248,12 +252,59 @@ TEST(SurfaceLocator, N1_OnGivenTriangles) {
         triangles[3] = static_cast<Mesh::Index>(s.cell_count());
         EXPECT_FALSE(locator.nearest_on(triangles, points, again));
     }
-    Surface flat = torus(8, 6);
-    flat.cells.insert(flat.cells.end(), {0, 1, 1});
-    const SurfaceLocator locator = SurfaceLocator::build(flat).value();
-    std::array<SurfaceNearest, 1> one;
-    EXPECT_FALSE(locator.nearest_on(std::array{static_cast<Mesh::Index>(flat.cell_count() - 1)},
-                                    std::array{1.0, 2.0, 3.0}, one));
+}
+
+// Segments and points: of three different nodes on a line, of two, of one; at places of their own and of other nodes.
+TEST(SurfaceLocator, N1_TrianglesWithoutArea) {
+    Surface s = torus(8, 6);
+    const auto first = static_cast<Mesh::Index>(s.point_count());
+    s.points.insert(s.points.end(), {3, 0, 0, 4, 0, 0, 5, 0, 0, 5, 0, 0, 3, 3, 3});
+    s.points.insert(s.points.end(), &s.points[0], &s.points[3]);
+    for (const auto& t : {std::array{1, 2, 0}, {0, 3, 2}, {2, 3, 2}, {4, 4, 4}, {5, 0, 0}}) {
+        for (const int i : t) s.cells.push_back(first + i);
+    }
+    s.cells.insert(s.cells.end(), {0, 1, 1});
+    std::vector<double> points = random_points(s, 200, 3);
+    points.insert(points.end(), {4.5, 1, 0, 4, 1, 0, 3.5, 0, 0, 6, 0, 0, 3, 3, 4, 1e9, 1, 0, 4.25, 1e-300, 0});
+    expect_all_nearest(s, points, "torus and segments");
+    expect_all_nearest(mapped(s, 0x1p-500), points, "times 2^-500");
+    Surface alone = s;
+    alone.cells.erase(alone.cells.begin(), alone.cells.end() - 18);
+    expect_all_nearest(alone, points, "segments");
+    const SurfaceLocator locator = SurfaceLocator::build(alone).value();
+    EXPECT_EQ(locator.turned(), Turned::open);
+    const auto features = [&](std::array<double, 3> p) {
+        const SurfaceNearest n = locator.nearest(p.data(), infinity).value();
+        const SurfaceLocation at = locator.locate(p.data()).value();
+        EXPECT_EQ(n.on, at.triangle >= 0);
+        if (n.on) {
+            EXPECT_EQ(n.cell, at.triangle);
+        }
+        return std::pair(n.nodes, at.feature);
+    };
+    using Nodes = std::array<Mesh::Index, 3>;
+    EXPECT_EQ(features({4, 0, 0}), std::pair(Nodes({first + 1, -1, -1}), Feature::vertex));
+    EXPECT_EQ(features({4.5, 0, 0}), std::pair(Nodes({first + 1, first + 2, -1}), Feature::edge));
+    EXPECT_EQ(features({4.5, 1, 0}), std::pair(Nodes({first + 1, first + 2, -1}), Feature::outside));
+    EXPECT_EQ(features({7, 1, 0}), std::pair(Nodes({first + 2, -1, -1}), Feature::outside));
+    EXPECT_EQ(features({3, 3, 3}), std::pair(Nodes({first + 4, -1, -1}), Feature::vertex));
+    const Surface point{.points = {1, 2, 3}, .cells = {0, 0, 0}};
+    expect_all_nearest(point, {1, 2, 3, 0, 0, 0, 1e300, 0, 0}, "a point");
+}
+
+// Of a sphere of nodes nearly all triangles are as near to its centre as floating point knows.
+TEST(SurfaceLocator, N1_TheCentreOfASphere) {
+    Surface s;
+    constexpr int around = 64, along = 32;
+    for (int j = 0; j <= along; ++j) {
+        for (int i = 0; i < around; ++i) {
+            const double u = 2 * std::numbers::pi * i / around, v = std::numbers::pi * j / along;
+            s.points.insert(s.points.end(), {std::sin(v) * std::cos(u), std::sin(v) * std::sin(u), std::cos(v)});
+            const auto at = [&](int a, int b) { return (j + a) * around + (i + b) % around; };
+            if (j < along) s.cells.insert(s.cells.end(), {at(0, 0), at(1, 0), at(1, 1), at(0, 0), at(1, 1), at(0, 1)});
+        }
+    }
+    expect_all_nearest(s, {0, 0, 0, 1e-17, 0, 0, 0, 0, 1e-16, 1e-3, 0, 0}, "sphere");
 }
 
 // A distance that rounds to 0 is no proof that the point is on the triangle.
@@ -406,19 +457,293 @@ TEST(SurfaceLocator, W2_WindingNumbers) {
     EXPECT_EQ(winding(.5), 2);
     EXPECT_EQ(winding(1.5), 3);
     EXPECT_EQ(winding(4), 2);
-    // Turned at random there is parity, and without one triangle nothing.
-    Surface even = surface_of({1, {1}});
-    std::swap(even.cells[3], even.cells[4]);
+}
+
+// Without one triangle there is nothing; turned at random what is enclosed, and parity of what meets itself.
+TEST(SurfaceLocator, W2_LeastOfShells) {
+    Surface cube = surface_of({1, {1}});
+    std::swap(cube.cells[3], cube.cells[4]);
     const double middle[3] = {.5, .5, .25}, outside[3] = {2, .5, .5};
-    const SurfaceLocator parity = SurfaceLocator::build(even).value();
-    EXPECT_EQ(parity.turned(), Turned::even);
-    EXPECT_EQ(parity.locate(middle).value().feature, Feature::interior);
-    EXPECT_EQ(parity.locate(outside).value().feature, Feature::outside);
-    even.cells.resize(even.cells.size() - 3);
-    const SurfaceLocator open = SurfaceLocator::build(even).value();
-    EXPECT_EQ(open.turned(), Turned::open);
-    EXPECT_EQ(open.locate(middle).value(), SurfaceLocation());
-    EXPECT_EQ(open.locate(even.points.data()).value().feature, Feature::vertex);
+    const auto expect = [&](const Surface& s, Turned turned, int in_middle) {
+        const SurfaceLocator locator = SurfaceLocator::build(s).value();
+        EXPECT_EQ(locator.turned(), turned);
+        EXPECT_EQ(locator.locate(middle).value().winding, in_middle);
+        EXPECT_EQ(locator.locate(outside).value().winding, 0);
+        std::vector<SurfaceLocation> found(40);
+        std::vector<double> points;
+        for (std::size_t i = 0; i < found.size(); ++i) points.insert(points.end(), middle, middle + 3);
+        ASSERT_TRUE(locator.locate(points, found));
+        for (const SurfaceLocation& f : found) EXPECT_EQ(f.winding, in_middle);
+        EXPECT_EQ(locator.locate(s.points.data()).value().feature, Feature::vertex);
+        return locator.sides();
+    };
+    EXPECT_EQ(expect(cube, Turned::regions, 1).by_regions, 12);
+    Surface open = cube;
+    open.cells.resize(open.cells.size() - 3);
+    EXPECT_GE(expect(open, Turned::open, 0).open, 0);
+    // A fin encloses nothing; a sheet by itself might be what is meant.
+    Surface fin = cube;
+    fin.points.insert(fin.points.end(), {0, 0, 3, 5, 5, 5, 6, 5, 5, 5, 6, 5});
+    fin.cells.insert(fin.cells.end(), {0, 1, 8});
+    EXPECT_EQ(expect(fin, Turned::regions, 1).idle, 1);
+    fin.cells.insert(fin.cells.end(), {9, 10, 11});
+    EXPECT_EQ(expect(fin, Turned::open, 0).open, 13);
+    // Twice, once each way: what cancels is what the other side of a sheet is, and leaves the cube.
+    Surface both = surface_of({1, {1}});
+    for (std::size_t i = 0; i < 36; ++i) both.cells.push_back(both.cells[i]);
+    for (std::size_t i = 36; i < 72; i += 3) std::swap(both.cells[i], both.cells[i + 1]);
+    EXPECT_EQ(expect(both, Turned::regions, 1).by_regions, 24);
+    // A long edge, and its two parts: a triangle without an area joins them.
+    Surface split = surface_of({1, {1}});
+    split.points.insert(split.points.end(), {.5, 0, 0});
+    const auto has = [&](std::size_t t, Mesh::Index n) {
+        return std::count(split.cells.begin() + 3 * t, split.cells.begin() + 3 * t + 3, n) != 0;
+    };
+    const auto node = [&](double x, double y, double z) {
+        for (Mesh::Index n = 0; n < 8; ++n) {
+            const double* const p = &split.points[3 * static_cast<std::size_t>(n)];
+            if (p[0] == x && p[1] == y && p[2] == z) return n;
+        }
+        return Mesh::Index{-1};
+    };
+    const Mesh::Index a = node(0, 0, 0), b = node(1, 0, 0);
+    for (std::size_t t = 0; t < 12; ++t) {
+        if (!has(t, a) || !has(t, b)) continue;
+        // Cut at the node, and the triangle between the parts and the whole, turned as the other side has them.
+        auto* const corner = &split.cells[3 * t];
+        while (corner[0] == a || corner[0] == b) std::rotate(corner, corner + 1, corner + 3);
+        const Mesh::Index apex = corner[0], from = corner[1], to = corner[2];
+        corner[2] = 8;
+        split.cells.insert(split.cells.end(), {apex, 8, to, from, to, 8});
+        break;
+    }
+    expect(split, Turned::alike, 1);
+    // Two cubes that cross, one with a triangle turned, joined along an edge: parity.
+    Surface crossing = cube;
+    for (const double x : surface_of({1, {1}}).points) crossing.points.push_back(x);
+    for (std::size_t i = 0; i < 36; ++i) crossing.cells.push_back(cube.cells[i] + 8);
+    for (std::size_t i = 8; i < 16; ++i) {
+        double* const p = &crossing.points[3 * i];
+        if (p[2] == 1) p[0] += .25, p[1] += .25;
+    }
+    const SideRules rules = expect(crossing, Turned::even, 0);
+    EXPECT_GT(rules.by_parity, 0);
+}
+
+/// Sides of unit cells, each some times, turned at random; what is inside by the words of W2, by filling cells.
+class Walls {
+public:
+    static constexpr int n = 5;
+
+    explicit Walls(std::uint64_t seed) {
+        std::mt19937_64 random(seed);
+        const Voxels v = random_voxels(n, 0.15 + 0.1 * static_cast<double>(seed % 4), seed);
+        const auto one_of = [&](unsigned k) { return random() % k == 0; };
+        const unsigned turned = seed % 3 == 0 ? 1000 : 12, extra = seed % 2 == 0 ? 1000 : 10;
+        each([&](const Side& s) {
+            const auto [low, high] = cells(s);
+            const bool from = v.at(low[0], low[1], low[2]), to = v.at(high[0], high[1], high[2]);
+            // 1: normal along the axis.
+            if (from != to) sides_[s].push_back(from != one_of(turned) ? 1 : -1);
+            if ((from || to) && one_of(extra)) sides_[s].push_back(one_of(2) ? 1 : -1);
+        });
+    }
+
+    Surface surface() const {
+        Surface s;
+        std::map<Cell, Mesh::Index> nodes;
+        for (const auto& [side, turns] : sides_) {
+            for (const int turn : turns) {
+                std::array<Mesh::Index, 4> ring{};
+                for (std::size_t i = 0; i < 4; ++i) {
+                    Cell at = side.low;
+                    at[(side.axis + 1) % 3] += i == 1 || i == 2 ? 1 : 0;
+                    at[(side.axis + 2) % 3] += i >= 2 ? 1 : 0;
+                    const auto [node, fresh] = nodes.try_emplace(at, static_cast<Mesh::Index>(nodes.size()));
+                    if (fresh) s.points.insert(s.points.end(), at.begin(), at.end());
+                    ring[i] = node->second;
+                }
+                for (const std::array<std::size_t, 3>& t : {std::array<std::size_t, 3>{0, 1, 2}, {0, 2, 3}}) {
+                    for (std::size_t k = 0; k < 3; ++k) s.cells.push_back(ring[t[turn > 0 ? k : 2 - k]]);
+                }
+            }
+        }
+        return s;
+    }
+
+    /// Of the middle of each cell; nothing if there is no inside.
+    std::optional<std::map<std::array<int, 3>, int>> windings() const {
+        std::map<std::array<int, 3>, int> sum;
+        std::set<Side> left;
+        for (const auto& entry : sides_) left.insert(entry.first);
+        for (const std::set<Side>& shell : shells(left)) {
+            const std::set<Side> closed = peeled(shell);
+            if (!closed.empty()) continue;
+            if (std::ranges::any_of(shell, [&](const Side& s) { return net(s) != 0; })) return std::nullopt;
+        }
+        bool any = false;
+        for (const std::set<Side>& shell : shells(peeled(left))) any = add(shell, sum) || any;
+        return any ? std::optional(sum) : std::nullopt;
+    }
+
+private:
+    using Cell = std::array<int, 3>;
+    struct Side {
+        Cell low;
+        std::size_t axis;
+        auto operator<=>(const Side&) const = default;
+    };
+    using Edge = std::pair<Cell, std::size_t>;
+
+    template <class Use>
+    static void each(Use use) {
+        for (int x = -1; x <= n + 1; ++x) {
+            for (int y = -1; y <= n + 1; ++y) {
+                for (int z = -1; z <= n + 1; ++z) {
+                    for (std::size_t axis = 0; axis < 3; ++axis) use(Side{{x, y, z}, axis});
+                }
+            }
+        }
+    }
+    static std::array<Cell, 2> cells(const Side& s) {
+        Cell low = s.low;
+        --low[s.axis];
+        return {low, s.low};
+    }
+    int net(const Side& s) const { return std::accumulate(sides_.at(s).begin(), sides_.at(s).end(), 0); }
+
+    /// Each with the direction in which a side goes along it whose normal is along its axis.
+    static std::array<std::pair<Edge, int>, 4> edges(const Side& s) {
+        const std::size_t a = (s.axis + 1) % 3, b = (s.axis + 2) % 3;
+        Cell beside = s.low, above = s.low;
+        ++beside[a];
+        ++above[b];
+        return {{{{s.low, a}, 1}, {{beside, b}, 1}, {{above, a}, -1}, {{s.low, b}, -1}}};
+    }
+    static std::map<Edge, std::vector<Side>> by_edge(const std::set<Side>& sides) {
+        std::map<Edge, std::vector<Side>> all;
+        for (const Side& s : sides) {
+            for (const auto& [edge, way] : edges(s)) all[edge].push_back(s);
+        }
+        return all;
+    }
+    static std::set<Side> peeled(std::set<Side> sides) {
+        for (bool again = true; again;) {
+            again = false;
+            for (const auto& [edge, at] : by_edge(sides)) {
+                if (at.size() == 1) again = sides.erase(at[0]) != 0 || again;
+            }
+        }
+        return sides;
+    }
+    static std::vector<std::set<Side>> shells(std::set<Side> sides) {
+        std::vector<std::set<Side>> all;
+        const auto at = by_edge(sides);
+        while (!sides.empty()) {
+            std::vector<Side> open{*sides.begin()};
+            sides.erase(sides.begin());
+            std::set<Side>& shell = all.emplace_back();
+            while (!open.empty()) {
+                const Side side = open.back();
+                open.pop_back();
+                shell.insert(side);
+                for (const auto& [edge, way] : edges(side)) {
+                    for (const Side& other : at.at(edge)) {
+                        if (sides.erase(other) != 0) open.push_back(other);
+                    }
+                }
+            }
+        }
+        return all;
+    }
+
+    /// True if it counts for something.
+    bool add(const std::set<Side>& shell, std::map<std::array<int, 3>, int>& sum) const {
+        std::map<Edge, int> along;
+        bool any = false;
+        for (const Side& s : shell) {
+            any = any || net(s) != 0;
+            for (const auto& [edge, way] : edges(s)) along[edge] += way * net(s);
+        }
+        if (any && std::ranges::all_of(along, [](const auto& e) { return e.second == 0; })) {
+            // What a ray along the first axis crosses.
+            for (int y = -2; y <= n + 2; ++y) {
+                for (int z = -2; z <= n + 2; ++z) {
+                    int winding = 0;
+                    for (int x = n + 2; x >= -2; --x) {
+                        const Side s{{x + 1, y, z}, 0};
+                        if (shell.contains(s)) winding += net(s);
+                        sum[{x, y, z}] += winding;
+                    }
+                }
+            }
+            return true;
+        }
+        // What is outside of it.
+        std::set<Cell> outside{{-2, -2, -2}};
+        std::vector<Cell> open{{-2, -2, -2}};
+        while (!open.empty()) {
+            const Cell from = open.back();
+            open.pop_back();
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                for (const int step : {-1, 1}) {
+                    Cell to = from;
+                    to[axis] += step;
+                    const bool wall = shell.contains(Side{step > 0 ? to : from, axis});
+                    if (to[axis] < -2 || to[axis] > n + 2 || wall || !outside.insert(to).second) continue;
+                    open.push_back(to);
+                }
+            }
+        }
+        int outward = 0;
+        for (const Side& s : shell) {
+            const auto [low, high] = cells(s);
+            outward += net(s) * ((outside.contains(high) ? 1 : 0) - (outside.contains(low) ? 1 : 0));
+        }
+        for (int x = -2; x <= n + 2; ++x) {
+            for (int y = -2; y <= n + 2; ++y) {
+                for (int z = -2; z <= n + 2; ++z) {
+                    if (!outside.contains({x, y, z})) sum[{x, y, z}] += outward < 0 ? -1 : 1;
+                }
+            }
+        }
+        return true;
+    }
+
+    std::map<Side, std::vector<int>> sides_;
+};
+
+TEST(SurfaceLocator, W2_WallsTurnsAndCopies) {
+    std::array<int, 4> turned{};
+    int negative = 0;
+    for (std::uint64_t seed = 0; seed < 120; ++seed) {
+        const Walls walls(seed);
+        const Surface s = walls.surface();
+        const SurfaceLocator locator = SurfaceLocator::build(s).value();
+        ++turned[static_cast<std::size_t>(locator.turned())];
+        const auto expected = walls.windings();
+        ASSERT_EQ(locator.turned() != Turned::open, expected.has_value()) << seed;
+        ASSERT_NE(locator.turned(), Turned::even) << seed;
+        if (!expected) continue;
+        std::vector<double> points;
+        std::vector<int> windings;
+        for (const auto& [cell, winding] : *expected) {
+            // Off the middle, which is over the diagonals of sides.
+            points.insert(points.end(), {cell[0] + .5, cell[1] + .5, cell[2] + .25});
+            windings.push_back(winding);
+            negative += winding < 0 ? 1 : 0;
+        }
+        std::vector<SurfaceLocation> found(windings.size());
+        ASSERT_TRUE(locator.locate(points, found));
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            ASSERT_EQ(found[i].winding, windings[i]) << seed << ' ' << i;
+            ASSERT_EQ(locator.locate(&points[3 * i]).value(), found[i]) << seed << ' ' << i;
+        }
+    }
+    EXPECT_GT(turned[0], 5);
+    EXPECT_GT(turned[2], 20);
+    EXPECT_GT(turned[3], 5);
+    EXPECT_GT(negative, 0);
 }
 
 TEST(SurfaceLocator, W1_PointsAnUlpOff) {
@@ -446,6 +771,23 @@ TEST(SurfaceLocator, W1_PointsAnUlpOff) {
 
 // Segments.
 
+/// The first point of a segment on a triangle without an area: a corner, its own end, or where two lines meet.
+std::optional<mpq_class> first_on_flat(const RationalTriangle& t, const Rational3& a, const Rational3& b, bool ray) {
+    const Rational3 d = b - a;
+    std::vector<mpq_class> at{0};
+    for (std::size_t i = 0; i < 3; ++i) {
+        at.push_back(inner(t[i] - a, d) / inner(d, d));
+        const Rational3 e = t[(i + 1) % 3] - t[i], n = outer(d, e);
+        if (inner(n, n) != 0) at.push_back(inner(outer(t[i] - a, e), n) / inner(n, n));
+    }
+    std::optional<mpq_class> first;
+    for (const mpq_class& one : at) {
+        if (one < 0 || (!ray && one > 1) || (first && *first <= one)) continue;
+        if (is_flat(t) && lies_on(t, between(a, b, one))) first = one;
+    }
+    return first;
+}
+
 TEST(SurfaceLocator, H1_HitsInOrder) {
     for (std::uint64_t seed = 0; seed < 40; ++seed) {
         const Surface s = random_soup(seed % 2 == 0 ? 4 : 30, 20, 30, seed);
@@ -460,7 +802,10 @@ TEST(SurfaceLocator, H1_HitsInOrder) {
                 std::vector<std::pair<mpq_class, Mesh::Index>> expected;
                 const Rational3 ra = rational(a), rb = rational(b);
                 for (std::size_t t = 0; t < triangles.size(); ++t) {
-                    if (is_flat(triangles[t])) continue;
+                    if (const auto at = first_on_flat(triangles[t], ra, rb, ray); is_flat(triangles[t])) {
+                        if (at) expected.emplace_back(*at, static_cast<Mesh::Index>(t));
+                        continue;
+                    }
                     const Rational3 n = outer(triangles[t][1] - triangles[t][0], triangles[t][2] - triangles[t][0]);
                     const mpq_class u = inner(n, ra - triangles[t][0]), v = inner(n, rb - triangles[t][0]);
                     mpq_class first = -1;

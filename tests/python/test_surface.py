@@ -59,8 +59,38 @@ def test_inside_and_on():
     assert names == ["interior", "outside", "face", "vertex", "outside"]
     assert triangle[0] == -1 and triangle[3] == 0
     assert winding.tolist() == [1, 0, 0, 0, 0]
-    with pytest.raises(barycert.Error, match="open surface"):
+    with pytest.raises(barycert.Error, match="the surface has no inside"):
         barycert.Surface(cube()[0], cube()[1][1:]).contains(points)
+
+
+def test_inside_what_is_enclosed():
+    points, triangles = cube()
+    corner = {tuple(p): i for i, p in enumerate(points.tolist())}
+    wall = [[corner[0, 0, 0], corner[1, 1, 0], corner[1, 1, 1]], [corner[0, 0, 0], corner[1, 1, 1], corner[0, 0, 1]]]
+    turned = triangles.copy()
+    turned[5] = turned[5][::-1]
+    for surface in [
+        barycert.Surface(points, turned),
+        barycert.Surface(points, np.concatenate([triangles, triangles[:2, ::-1]])),
+    ]:
+        assert surface.turned == "regions"
+        assert surface.contains([[0.5, 0.25, 0.25], [0.25, 0.5, 0.25], [2, 0, 0]]).tolist() == [True, True, False]
+        assert surface.distance([0.5, 0.5, 0.75]).item() == -0.25
+    # The wall goes along diagonals of the cube or crosses them.
+    surface = barycert.Surface(points, np.concatenate([triangles, wall]))
+    assert (surface.turned == "open") == (not surface.check(contacts=0).certified)
+
+
+def test_triangles_without_area_are_segments_and_points():
+    points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [5, 0, 0], [6, 0, 0], [7, 0, 0.0]]
+    surface = barycert.Surface(points, [[0, 1, 2], [3, 4, 5]], {"u": np.arange(6.0)})
+    near = surface.nearest([[5.5, 1, 0], [6, 2, 0]])
+    assert near.triangle.tolist() == [1, 1] and near.distance.tolist() == [1, 2]
+    assert near.nodes.tolist() == [[3, 4, -1], [4, -1, -1]]
+    assert surface.sample([5.25, 1, 0], "u").item() == 3.25
+    assert surface.hits([5.5, 1, 0], [5.5, -1, 0]) == [(1, "edge", 0.5, 0)]
+    triangle, feature, _ = surface.locate([[5.5, 0, 0], [5.5, 1, 0]])
+    assert triangle.tolist() == [1, -1] and barycert.Feature(feature[0]).name == "EDGE"
 
 
 def test_nearest_and_signed_distance():

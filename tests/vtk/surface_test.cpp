@@ -116,7 +116,7 @@ TEST(Surface, FindClosestPointIsTheLowestOfTheNearest) {
     for (const auto& [s, what] : surfaces()) {
         SCOPED_TRACE(what);
         const auto locator = locator_on(s);
-        const SurfaceLocator own = SurfaceLocator::build(s).value();
+        const SurfaceLocator own = SurfaceLocator::build(s, {}, false).value();
         const std::vector<RationalTriangle> triangles = triangles_of(s);
         vtkNew<vtkGenericCell> cell;
         int on = 0;
@@ -513,7 +513,7 @@ void expect_values(const Surface& s, double tolerance) {
     probe->Update();
     EXPECT_TRUE(probe->GetExact());
     vtkPointData* const out = probe->GetOutput()->GetPointData();
-    const SurfaceLocator locator = SurfaceLocator::build(s).value();
+    const SurfaceLocator locator = SurfaceLocator::build(s, {}, false).value();
     std::vector<SurfaceNearest> nearest(where.size() / 3);
     std::vector<double> values(2 * nearest.size());
     ASSERT_TRUE(locator.nearest(where, tolerance, nearest));

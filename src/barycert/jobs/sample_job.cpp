@@ -10,6 +10,7 @@
 #include "barycert/io/npz/weights_file.hpp"
 #include "barycert/io/polygons/triangles.hpp"
 #include "barycert/jobs/profile.hpp"
+#include "barycert/jobs/surface_words.hpp"
 #include "barycert/map.hpp"
 #include "barycert/sample/quantity/quantities.hpp"
 #include "barycert/surface_locator.hpp"
@@ -182,16 +183,11 @@ std::vector<std::pair<const Field*, bool>> chosen_fields(const SampleJob& job, c
     return chosen;
 }
 
-Feature feature_of(const SurfaceNearest& n) {
-    if (n.cell < 0) return Feature::outside;
-    return n.nodes[2] >= 0 ? Feature::face : n.nodes[1] >= 0 ? Feature::edge : Feature::vertex;
-}
-
 /// Points and their nearest points, block after block.
 class SurfaceSampling {
 public:
     SurfaceSampling(const SampleJob& job, const Surface& surface, double seconds_to_read)
-        : job_(job), surface_(surface), fields_(chosen_fields(job, surface)) {
+        : job_(job), surface_(surface), inner_edges_(surface), fields_(chosen_fields(job, surface)) {
         report_.command = "sample";
         report_.mesh = job.mesh;
         report_.surface = true;
@@ -211,6 +207,7 @@ public:
         open();
         jobs::tell_stage(job_, "sorting triangles");
         const SurfaceLocator locator = SurfaceLocator::build(surface_, {.threads = job_.options.threads}).value();
+        jobs::note_sides(locator.sides(), surface_, job_.mesh, report_.notes);
         report_.seconds.build = watch_.lap();
         while (read(locator)) {
             report_.seconds.sample += watch_.lap();
@@ -299,7 +296,7 @@ private:
         for (std::size_t i = 0; i < count; ++i) {
             const SurfaceNearest& n = near_[i];
             cells_[i] = surface_.facet(n.cell);
-            rows_.features[i] = feature_of(n);
+            rows_.features[i] = inner_edges_.feature(n);
             // Negative inside.
             rows_.distances[i] = n.cell < 0 ? nan : places[i].winding != 0 ? -n.distance : n.distance;
             report_.counts.locations.add(n.on ? rows_.features[i] : Feature::outside);
@@ -334,6 +331,7 @@ private:
 
     const SampleJob& job_;
     const Surface& surface_;
+    jobs::InnerEdges inner_edges_;
     std::vector<std::pair<const Field*, bool>> fields_;  ///< and whether of cells
     jobs::Stopwatch watch_;
     SampleReport report_;

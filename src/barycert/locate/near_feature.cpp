@@ -6,6 +6,7 @@
 
 #include "barycert/base/vectors.hpp"
 #include "barycert/core/whole_points.hpp"
+#include "barycert/index/facet_contact.hpp"
 #include "barycert/weights.hpp"
 
 namespace barycert::locate {
@@ -118,6 +119,13 @@ NearFeature NearCell::feature(unsigned mask) const {
 }
 
 bool nearest_feature(const NearCell& cell, const Point3& p, unsigned guess, NearFeature& out) {
+    if (cell.in_space) {
+        const std::array<const double*, 3> at{cell.at[0].data(), cell.at[1].data(), cell.at[2].data()};
+        if (!index::proper(3, {{}, at})) {
+            out = cell.feature(nearest_of_flat(at, p.data()));
+            return true;
+        }
+    }
     Classifier is(cell, p);
     if (is.degenerate()) return false;
     if (is.inside()) {

@@ -57,9 +57,23 @@ struct NearCell {
 };
 
 /// Finds the feature of the closed cell on which its point nearest to p lies; of a point inside, the point itself.
-/// `guess` is a feature to try first, a mask. Returns false if the cell is degenerate. Precondition: a triangle in
-/// space is not.
+/// `guess` is a feature to try first, a mask. Returns false if the cell is degenerate and no triangle in space: of such
+/// it is a vertex, or an edge between corners that follow one another along its line.
 bool nearest_feature(const NearCell& cell, const Point3& p, unsigned guess, NearFeature& out);
+
+// Triangles in space without an area: segments and points.
+
+/// Corners by their order along the line, of those at one place the first.
+struct FlatCorners {
+    std::size_t count = 0;
+    std::array<std::uint8_t, 3> corner{};
+};
+FlatCorners corners_along(const std::array<const double*, 3>& at);
+
+/// The corners of the vertex or edge nearest to p, a bit each. Precondition for these: the triangle has no area.
+unsigned nearest_of_flat(const std::array<const double*, 3>& at, const double* p);
+/// Of that on which p lies; 0 if it lies on none.
+unsigned part_of_flat(const std::array<const double*, 3>& at, const double* p);
 
 /// -1, 0, 1 as p is nearer to the projection on f than to that on g, as near, or farther.
 int compare_distances(const Point3& p, const NearFeature& f, const NearFeature& g);

@@ -25,33 +25,34 @@ struct Open {
 
 class Search {
 public:
-    Search(const CellIndex& index, const NearestTree& tree, const double* point, double limit, NearestWork& work)
-        : index_(index),
-          tree_(tree),
-          work_(work),
-          limited_(limit < infinity),
-          limit_(limited_ ? limit + 0x1p-1074L : 0) {
+    Search(const CellIndex& index, const double* point, double limit, NearestWork& work)
+        : index_(index), work_(work), limited_(limit < infinity), limit_(limited_ ? limit + 0x1p-1074L : 0) {
         std::copy_n(point, index_.dimension(), p_.begin());
     }
 
-    Nearest run() {
-        const std::size_t top = tree_.levels() - 1;
-        best_.place = place(tree_.box(top, 0));  // of no cell: something to compare with
+    Nearest among(std::span<const std::uint32_t> places) {
+        for (const std::uint32_t i : places) try_cell(i);
+        return found();
+    }
+
+    Nearest in(const NearestTree& tree) {
+        const std::size_t top = tree.levels() - 1;
+        best_.place = place(tree.box(top, 0));  // of no cell: something to compare with
         std::vector<Open> stack;
-        open(tree_.box(top, 0), top, 0, stack);
+        open(tree.box(top, 0), top, 0, stack);
         std::vector<Open> next;
         while (!stack.empty()) {
             const Open now = stack.back();
             stack.pop_back();
-            if (beyond(place(tree_.box(now.level, now.i)))) continue;
+            if (beyond(place(tree.box(now.level, now.i)))) continue;
             next.clear();
             const std::size_t first = NearestTree::fan * now.i;
-            const std::size_t below = now.level == 0 ? index_.cell_count() : tree_.count(now.level - 1);
+            const std::size_t below = now.level == 0 ? index_.cell_count() : tree.count(now.level - 1);
             for (std::size_t i = first; i < std::min(below, first + NearestTree::fan); ++i) {
                 if (now.level == 0) {
                     open(box_of_cell(index_, i), 0, i, next);
                 } else {
-                    open(tree_.box(now.level - 1, i), now.level - 1, i, next);
+                    open(tree.box(now.level - 1, i), now.level - 1, i, next);
                 }
             }
             std::sort(next.begin(), next.end(), [](const Open& a, const Open& b) { return b.key < a.key; });
@@ -61,11 +62,15 @@ public:
             }
             for (; !next.empty(); next.pop_back()) try_cell(next.back().i);
         }
+        return found();
+    }
+
+private:
+    Nearest found() {
         if (found_.cell >= 0) found_.distance = distance_to(p_, feature_);
         return found_;
     }
 
-private:
     NearPlace place(const Box& box) const { return NearPlace(p_, box.nearest(p_), {}); }
 
     /// Certainly farther than the best, or than the limit.
@@ -119,7 +124,6 @@ private:
     }
 
     const CellIndex& index_;
-    const NearestTree& tree_;
     NearestWork& work_;
     bool limited_;
     Real limit_;  ///< with room for the rounding of distances
@@ -171,8 +175,15 @@ Nearest find_nearest(const CellIndex& index, const NearestTree& tree, const doub
     const Nearest none{.distance = infinity};
     if (!(limit >= 0)) return none;
     NearestWork unasked;
-    const Nearest found = Search(index, tree, point, limit, work != nullptr ? *work : unasked).run();
+    const Nearest found = Search(index, point, limit, work != nullptr ? *work : unasked).in(tree);
     return found.distance <= limit ? found : none;
+}
+
+Nearest find_nearest_of(const CellIndex& index, std::span<const std::uint32_t> places, const double* point,
+                        double limit) {
+    NearestWork unasked;
+    const Nearest found = Search(index, point, limit, unasked).among(places);
+    return found.distance <= limit ? found : Nearest{.distance = infinity};
 }
 
 Nearest find_nearest(const LocatorData& data, const double* point, double limit, NearestWork* work) {

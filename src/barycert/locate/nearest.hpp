@@ -44,6 +44,9 @@ struct NearestWork {
 /// As Locator::nearest, of cells or triangles in space. Preconditions: coordinates are finite; there is a cell.
 Nearest find_nearest(const CellIndex& index, const NearestTree& tree, const double* point, double limit,
                      NearestWork* work = nullptr);
+/// The same of the cells at these places alone.
+Nearest find_nearest_of(const CellIndex& index, std::span<const std::uint32_t> places, const double* point,
+                        double limit);
 Nearest find_nearest(const LocatorData& data, const double* point, double limit, NearestWork* work = nullptr);
 
 }  // namespace barycert::locate

@@ -80,8 +80,9 @@ class Surface:
     triangles: np.ndarray = forwarded("_core.triangles", "(m, 3).")
     cells: np.ndarray = forwarded("_core.triangles", "The triangles, as a mesh has its cells.")
     notes: List[str] = forwarded("_notes", "What the reader left out, converted or guessed.")
-    turned: str = forwarded("_core.turned", """What tells the sides apart: "alike": each edge has as many triangles one way as
-        the other; "even": an even number of triangles; "open": neither, there is no inside.""")  # fmt: skip
+    turned: str = forwarded("_core.turned", """What tells the sides apart, of all shells the least: "alike": each edge has as
+        many triangles one way as the other: winding numbers; "regions": what the triangles enclose; "even": parity, of
+        triangles that meet themselves; "open": there is no inside.""")  # fmt: skip
 
     def check(
         self, *, examples: int = 10, contacts: int = 20, near: float = 1e-3, verdict_only: bool = False, threads: int = 0,
@@ -103,17 +104,19 @@ class Surface:
         Returns:
             triangle (...) int32: the lowest that holds the point; -1: none. feature (...) uint8, as `Feature`: interior,
             outside, or face, edge or vertex of the triangle. winding (...) int32: how many times the surface goes around a
-            point on no triangle (`turned` "even": 0 or 1; "open": 0).
+            point on no triangle; shells that are not turned alike count 1 or -1 in what they enclose. "open": 0.
         """
         rows, shape = points_of(points, 3)
         found = self._core.locate(rows, count_of(threads, "threads="))
         return tuple(part.reshape(shape) for part in found)  # type: ignore[return-value]
 
     def contains(self, points: Any, *, boundary: bool = True, threads: int = 0) -> np.ndarray:
-        """Whether points (..., 3) lie inside, exactly; `boundary`: or on a triangle. Error: the surface is open."""
+        """Whether points (..., 3) lie inside, exactly; `boundary`: or on a triangle. Error: the surface has no inside."""
         if self.turned == "open":
-            _core.fail("an open surface has no inside", expected="an even number of triangles at each edge",
-                       remedy="check() says where it is open")  # fmt: skip
+            first = self._core.first_open
+            _core.fail("the surface has no inside", expected="triangles that enclose a part of space",
+                       found="none" if first < 0 else f"the shell of triangle {first}, which is open or meets itself",
+                       remedy="check() says where it is open, and where it meets itself")  # fmt: skip
         triangle, _, winding = self.locate(points, threads=threads)
         return (winding != 0) | ((triangle >= 0) if boundary else False)
 
@@ -124,7 +127,7 @@ class Surface:
         return NearestPoints(*(part.reshape(shape + part.shape[1:]) for part in found[:5]))
 
     def distance(self, points: Any, *, threads: int = 0) -> np.ndarray:
-        """Signed distances of points (..., 3), correctly rounded: negative inside. Error: the surface is open."""
+        """Signed distances of points (..., 3), correctly rounded: negative inside. Error: the surface has no inside."""
         inside = self.contains(points, threads=threads)
         return np.where(inside, -1.0, 1.0) * self.nearest(points, threads=threads).distance
 

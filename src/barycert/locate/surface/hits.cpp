@@ -73,6 +73,47 @@ bool first_in_plane(const Segment& s, const std::array<const double*, 3>& t, Par
     return open || !(high < low);
 }
 
+/// The parameter is one of the segment's.
+bool is_of(const Segment& s, const Parameter& x) {
+    return x.numerator >= 0 && (s.ray || x.numerator <= x.denominator);
+}
+
+/// Of two segments on one line: where that from c to d begins, as seen from a.
+bool first_on_line(const Segment& s, const Vector& along, const Vector& to_c, const Vector& to_d, Parameter& first) {
+    const Number square = base::dot(along, along);
+    Parameter low{base::dot(to_c, along), square}, high{base::dot(to_d, along), square};
+    if (high < low) std::swap(low, high);
+    if (high.numerator < 0) return false;
+    first = low.numerator < 0 ? Parameter{0, 1} : low;
+    return is_of(s, first);
+}
+
+/// Of a triangle without an area: a segment, of which corners in their order along it, or a point.
+bool hit_flat(const Segment& s, const std::array<const double*, 3>& t, Hit& found) {
+    const FlatCorners line = corners_along(t);
+    const core::WholePoints whole{s.a, s.b, t[0], t[1], t[2]};
+    const Vector a = whole.at(s.a), along = base::minus(whole.at(s.b), a), c = whole.at(t[line.corner[0]]);
+    const Vector to_c = base::minus(c, a), edge = base::minus(whole.at(t[line.corner[line.count - 1]]), c);
+    const Vector n = base::cross(along, edge), aside = base::cross(to_c, along);
+    const Number square = base::dot(n, n);
+    if (square == 0) {
+        if (base::dot(aside, aside) != 0) return false;
+        found.feature = line.count == 1 ? Feature::vertex : Feature::degenerate;
+        const Vector to_d{to_c[0] + edge[0], to_c[1] + edge[1], to_c[2] + edge[2]};
+        return first_on_line(s, along, to_c, to_d, found.exact);
+    }
+    if (base::dot(to_c, n) != 0) return false;
+    found.exact = {base::dot(base::cross(to_c, edge), n), square};
+    const Number on_edge = base::dot(aside, n);  // over the square
+    if (!is_of(s, found.exact) || on_edge < 0 || on_edge > square) return false;
+    const auto at_corner = [&](std::size_t i) {
+        const Vector from_c = base::minus(whole.at(t[line.corner[i]]), c);
+        return base::dot(from_c, edge) * square == on_edge * base::dot(edge, edge);
+    };
+    found.feature = at_corner(0) || at_corner(1) || at_corner(line.count - 1) ? Feature::vertex : Feature::edge;
+    return true;
+}
+
 bool hit(const Segment& s, const std::array<const double*, 3>& t, Hit& found) {
     const int from = sign(t[0], t[1], t[2], s.a), to = sign(t[0], t[1], t[2], s.b);
     if (from == 0 && to == 0) {
@@ -110,7 +151,8 @@ std::vector<SurfaceHit> SurfaceData::hits(const double* a, const double* b, bool
     }
     boxes->for_each_meeting(box, [&](std::size_t t) {
         Hit one;
-        if (hit(segment, triangles.turned(t), one)) {
+        const std::array<const double*, 3> at = triangles.turned(t);
+        if (triangles.is_flat(t) ? hit_flat(segment, at, one) : hit(segment, at, one)) {
             one.triangle = triangles.number(t);
             one.parameter = core::rounded_quotient(one.exact.numerator, one.exact.denominator, 0);
             all.push_back(std::move(one));

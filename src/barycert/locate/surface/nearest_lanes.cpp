@@ -6,7 +6,8 @@
 // q = y.y is |p - x|^2 but for (2 * 4 + 3) u m^2 and what is of u^2, and the triangle has a point as near but for 4 u
 // m^2 more. No point of it is nearer than |p - x|^2 - 2 max over its corners c of y.(c - x), which is 2 (max(0, y.e,
 // y.f) - (s y.e + t y.f)): each product is off by 7 u m^2, all of it by less than 40. Together less than 55 u m^2, and
-// 128 is used; what underflows is below 2^-1000, as all numbers but products are at most 2^8.
+// 128 is used; what underflows is below 2^-1000, as all numbers but products are at most 2^8. None of this asks for an
+// area: where a triangle has none, quotients by zero may be NaN, and what is NaN leaves nothing out.
 //
 // The distance of p from a box takes a difference an axis, squares and sums: a part 4 u of itself, and 8 is used.
 #include "barycert/locate/surface/surface_data.hpp"
@@ -104,20 +105,23 @@ struct Open {
     std::uint32_t level, group;
 };
 
-bool candidates(const NearGroups& groups, const double (&p)[3], double square, std::uint32_t& hint,
+void candidates(const NearGroups& groups, const double (&p)[3], double square, std::uint32_t& hint,
                 NearCandidates& found) {
-    double lows[NearCandidates::most];
     HWY_ALIGN double low[8], high[8], key[8];
-    found.count = 0;
+    found.number.clear();
+    found.low.clear();
     double best = std::min(square, std::numeric_limits<double>::max());
+    std::size_t room = 64;  // to be filled before those that are farther by now are looked for
     const auto drop_farther = [&] {
         std::size_t kept = 0;
-        for (std::size_t i = 0; i < found.count; ++i) {
-            if (lows[i] > best) continue;  // a NaN proves nothing
-            lows[kept] = lows[i];
+        for (std::size_t i = 0; i < found.number.size(); ++i) {
+            if (found.low[i] > best) continue;  // a NaN proves nothing
+            found.low[kept] = found.low[i];
             found.number[kept++] = found.number[i];
         }
-        found.count = kept;
+        found.low.resize(kept);
+        found.number.resize(kept);
+        room = std::max(room, 2 * kept);
     };
     const auto look = [&](std::size_t group, bool keep) HWY_ATTR {
         bounds(groups.triangles[group], p, low, high);
@@ -127,15 +131,13 @@ bool candidates(const NearGroups& groups, const double (&p)[3], double square, s
             best = high[l];
             hint = static_cast<std::uint32_t>(8 * group + l);
         }
-        if (!keep) return true;
+        if (!keep) return;
         for (std::size_t l = 0; l < here; ++l) {
             if (low[l] > best) continue;
-            if (found.count == NearCandidates::most) drop_farther();
-            if (found.count == NearCandidates::most) return false;
-            lows[found.count] = low[l];
-            found.number[found.count++] = static_cast<std::uint32_t>(8 * group + l);
+            if (found.number.size() == room) drop_farther();
+            found.low.push_back(low[l]);
+            found.number.push_back(static_cast<std::uint32_t>(8 * group + l));
         }
-        return true;
     };
     if (hint < groups.count) look(hint / 8, false);
     Open stack[8 * 12];
@@ -157,11 +159,10 @@ bool candidates(const NearGroups& groups, const double (&p)[3], double square, s
         if (now.level != 0) continue;
         while (top > bottom) {
             const Open group = stack[--top];
-            if (!(group.key > best) && !look(group.group, true)) return false;
+            if (!(group.key > best)) look(group.group, true);
         }
     }
     drop_farther();
-    return true;
 }
 
 // Let w = p - a, e = b - a, f = c - a, and W, E the sums over the axes of |w| and of the larger of |e|, |f|.
@@ -369,9 +370,9 @@ HWY_EXPORT(candidates);
 HWY_EXPORT(classify);
 HWY_EXPORT(round_all);
 
-bool find_candidates(const NearGroups& groups, const double (&point)[3], double square, std::uint32_t& hint,
+void find_candidates(const NearGroups& groups, const double (&point)[3], double square, std::uint32_t& hint,
                      NearCandidates& found) {
-    return HWY_DYNAMIC_DISPATCH(candidates)(groups, point, square, hint, found);
+    HWY_DYNAMIC_DISPATCH(candidates)(groups, point, square, hint, found);
 }
 
 void classify_nearest(const NearPair* pairs, std::size_t count, std::uint8_t* masks) {

@@ -22,6 +22,8 @@ void round_on(const Point3& p, const NearFeature& f, SurfaceNearest& to) {
 class Block {
 public:
     static constexpr std::size_t most = 512;
+    /// More candidates of one point are settled by themselves: far more would take the memory of all others.
+    static constexpr std::size_t many = 64;
 
     Block(const SurfaceData& data, double limit) : data_(data), groups_(data.near_groups()), limit_(limit) {
         // The limit is that of rounded distances.
@@ -30,23 +32,17 @@ public:
     }
 
     void add(const double* point, SurfaceNearest* to) {
-        Query query{point, to, pairs_.size(), 0};
-        NearPair pair{};
-        NearCandidates found;
-        const bool taken =
-            groups_.take(point, pair.point) && find_candidates(groups_, pair.point, square_, hint_, found);
         *to = none();
-        if (!taken) return far(query);
-        for (std::size_t i = 0; i < found.count; ++i) {
-            const std::size_t t = found.number[i];
-            for (std::size_t c = 0; c < 3; ++c) {
-                for (std::size_t k = 0; k < 3; ++k) pair.at[c][k] = groups_.triangles[t / 8].at[c][k][t % 8];
-            }
-            pairs_.push_back(pair);
+        NearPair pair{};
+        if (!groups_.take(point, pair.point)) return far(point, *to);
+        find_candidates(groups_, pair.point, square_, hint_, found_);
+        const std::size_t count = found_.number.size();
+        if (count > many) return exact(point, nearest_of_many(pair), *to);
+        queries_.push_back({point, to, pairs_.size(), count});
+        for (const std::uint32_t t : found_.number) {
+            pairs_.push_back(with_corners(pair, t));
             places_.push_back(groups_.order[t]);
         }
-        query.count = found.count;
-        queries_.push_back(query);
     }
     bool full() const { return queries_.size() >= most; }
 
@@ -55,7 +51,7 @@ public:
         if (!pairs_.empty()) classify_nearest(pairs_.data(), pairs_.size(), masks_.data());
         for (const Query& query : queries_) {
             if (query.count == 0) continue;
-            if (!settle(query)) exact(query);
+            if (!settle(query)) exact(query.point, std::span(places_).subspan(query.first, query.count), *query.to);
         }
         for (std::size_t corners = 1; corners <= 3; ++corners) round(corners);
         queries_.clear();
@@ -74,6 +70,50 @@ private:
         std::size_t pair;
         std::array<std::uint8_t, 3> corners;  ///< of the feature, by ascending node
     };
+
+    NearPair with_corners(NearPair pair, std::uint32_t t) const {
+        for (std::size_t c = 0; c < 3; ++c) {
+            for (std::size_t k = 0; k < 3; ++k) pair.at[c][k] = groups_.triangles[t / 8].at[c][k][t % 8];
+        }
+        return pair;
+    }
+
+    /// Of all candidates the places of those whose rounded distance is least, and of those where it is not certain:
+    /// rounding keeps the order, so that no other is nearest.
+    std::vector<std::uint32_t> nearest_of_many(const NearPair& of) const {
+        const std::size_t count = found_.number.size();
+        std::vector<NearPair> pairs;
+        for (const std::uint32_t t : found_.number) pairs.push_back(with_corners(of, t));
+        std::vector<std::uint8_t> masks(count);
+        classify_nearest(pairs.data(), count, masks.data());
+        std::vector<double> distance(count, -1);
+        double least = std::numeric_limits<double>::infinity();
+        for (int corners = 1; corners <= 3; ++corners) {
+            std::vector<NearPair> in_order;
+            std::vector<std::size_t> which;
+            for (std::size_t i = 0; i < count; ++i) {
+                if (masks[i] == 0 || std::popcount(masks[i]) != corners) continue;
+                which.push_back(i);
+                in_order.push_back(pairs[i]);
+                for (std::size_t c = 0, at = 0; c < 3; ++c) {
+                    if ((masks[i] >> c & 1) != 0) std::copy_n(pairs[i].at[c], 3, in_order.back().at[at++]);
+                }
+            }
+            if (which.empty()) continue;
+            std::vector<NearRounded> rounded(which.size());
+            round_nearest(in_order.data(), which.size(), corners, rounded.data());
+            for (std::size_t i = 0; i < which.size(); ++i) {
+                if (!rounded[i].certain) continue;
+                distance[which[i]] = rounded[i].distance;
+                least = std::min(least, rounded[i].distance);
+            }
+        }
+        std::vector<std::uint32_t> places;
+        for (std::size_t i = 0; i < count; ++i) {
+            if (distance[i] < 0 || distance[i] == least) places.push_back(groups_.order[found_.number[i]]);
+        }
+        return places;
+    }
 
     /// Which nodes: of each candidate, if they are certain.
     std::array<Mesh::Index, 3> nodes_of(std::size_t pair, std::array<std::uint8_t, 3>& order) const {
@@ -109,19 +149,19 @@ private:
         return true;
     }
 
-    /// Nodes at one place are one here, and so may be another triangle's: makes them those of the triangle, ascending,
-    /// and `order` with them.
+    /// Nodes at one place are one here, and so may be another triangle's: makes them those of the triangle, of several
+    /// the lowest, ascending, and `order` with them.
     void take_own_nodes(SurfaceNearest& to, std::array<std::uint8_t, 3>* order = nullptr) const {
         if (!data_.triangles.joined) return;
         const Surface& s = *data_.surface;
         const auto at = [&](Mesh::Index n) { return &s.points[3 * static_cast<std::size_t>(n)]; };
         for (std::size_t i = 0; i < 3 && to.nodes[i] >= 0; ++i) {
+            Mesh::Index lowest = -1;
             for (std::size_t c = 0; c < 3; ++c) {
                 const Mesh::Index own = s.cells[3 * static_cast<std::size_t>(to.cell) + c];
-                if (!std::equal(at(own), at(own) + 3, at(to.nodes[i]))) continue;
-                to.nodes[i] = own;
-                break;
+                if (std::equal(at(own), at(own) + 3, at(to.nodes[i])) && (lowest < 0 || own < lowest)) lowest = own;
             }
+            to.nodes[i] = lowest;
             for (std::size_t k = i; k > 0 && to.nodes[k] < to.nodes[k - 1]; --k) {
                 std::swap(to.nodes[k], to.nodes[k - 1]);
                 if (order != nullptr) std::swap((*order)[k], (*order)[k - 1]);
@@ -152,7 +192,7 @@ private:
             to.distance = out(from.distance);
             for (std::size_t k = 0; k < 3; ++k) to.point[k] = out(from.at[k]) + 0.0;
             std::copy_n(from.weights, 3, to.weights.begin());
-            if (!exact_unit) round_exactly(all[i].query);
+            if (!exact_unit) round_exactly(all[i].query.point, to);
             keep_within(to);
         }
         all.clear();
@@ -162,46 +202,34 @@ private:
         if (!(to.distance <= limit_)) to = none();
     }
 
-    /// Of a query whose triangle and nodes are known.
-    void round_exactly(const Query& query) const {
-        const NearFeature f = near_feature(query.to->nodes, data_.surface->points, 3);
-        round_on({query.point[0], query.point[1], query.point[2]}, f, *query.to);
+    /// Of a point whose triangle and nodes are known.
+    void round_exactly(const double* point, SurfaceNearest& to) const {
+        const NearFeature f = near_feature(to.nodes, data_.surface->points, 3);
+        round_on({point[0], point[1], point[2]}, f, to);
     }
 
-    void exact(const Query& query) const {
-        const Point3 p{query.point[0], query.point[1], query.point[2]};
-        NearFeature best;
-        for (std::size_t i = query.first; i < query.first + query.count; ++i) {
-            const Mesh::Index number = data_.triangles.number(places_[i]);
-            const NearCell cell = near_cell(data_.triangles.index, places_[i]);
-            NearFeature feature;
-            nearest_feature(cell, p, masks_[i] != 0 ? 0 : guess_nearest(cell, p).mask, feature);
-            if (query.to->cell >= 0) {
-                const int order = feature.nodes == best.nodes ? 0 : compare_distances(p, feature, best);
-                // Of two features at one place, that of the lowest triangle.
-                if (order > 0 || (order == 0 && number > query.to->cell)) continue;
-            }
-            query.to->cell = number;
-            best = feature;
-        }
-        query.to->nodes = best.nodes;
-        take_own_nodes(*query.to);
-        round_exactly(query);
-        keep_within(*query.to);
+    /// Of candidates that floating point cannot tell apart.
+    void exact(const double* point, std::span<const std::uint32_t> places, SurfaceNearest& to) const {
+        take(find_nearest_of(data_.triangles.index, places, point, limit_), point, to);
     }
 
     /// Of points that are far away, or not exact in the unit.
-    void far(const Query& query) const {
-        static_cast<Nearest&>(*query.to) = find_nearest(data_.triangles.index, data_.far_tree(), query.point, limit_);
-        if (query.to->cell < 0) return;
-        take_own_nodes(*query.to);
-        round_exactly(query);
+    void far(const double* point, SurfaceNearest& to) const {
+        take(find_nearest(data_.triangles.index, data_.far_tree(), point, limit_), point, to);
+    }
+
+    void take(const Nearest& found, const double* point, SurfaceNearest& to) const {
+        static_cast<Nearest&>(to) = found;
+        if (to.cell < 0) return;
+        take_own_nodes(to);
+        round_exactly(point, to);
     }
 
     const SurfaceData& data_;
     const NearGroups& groups_;
     double limit_, square_ = 0;
     std::uint32_t hint_ = UINT32_MAX;
+    NearCandidates found_;
     std::vector<Query> queries_;
     std::vector<NearPair> pairs_, in_order_;
     std::vector<std::uint32_t> places_;  ///< triangles of the pairs
@@ -226,23 +254,21 @@ void SurfaceData::nearest(std::span<const double* const> points, double limit,
     block.finish();
 }
 
-bool SurfaceData::nearest_on(Mesh::Index triangle, const double* p, SurfaceNearest& to) const {
+void SurfaceData::nearest_on(Mesh::Index triangle, const double* p, SurfaceNearest& to) const {
     to = none();
-    if (triangle < 0) return true;
+    if (triangle < 0) return;
     NearCell cell{3, true};
     const Mesh::Index* const corners = &surface->cells[3 * static_cast<std::size_t>(triangle)];
     std::copy_n(corners, 3, cell.nodes.begin());
     std::sort(cell.nodes.begin(), cell.nodes.begin() + 3);
     for (std::size_t i = 0; i < 3; ++i)
         std::copy_n(&surface->points[3 * static_cast<std::size_t>(cell.nodes[i])], 3, cell.at[i].begin());
-    if (!index::proper(3, {{}, {cell.at[0].data(), cell.at[1].data(), cell.at[2].data()}})) return false;
     const Point3 point{p[0], p[1], p[2]};
     NearFeature f;
     nearest_feature(cell, point, guess_nearest(cell, point).mask, f);
     to.cell = triangle;
     to.nodes = f.nodes;
     round_on(point, f, to);
-    return true;
 }
 
 }  // namespace barycert::locate

@@ -102,8 +102,9 @@ void SideMap::fill(const SurfaceData& surface) {
         double p[3];
         sides_[b] = touched;
         if (!middle_of(b, p)) continue;
-        const int winding = surface.locate(p).winding;
-        if (std::abs(winding) < INT16_MAX) sides_[b] = static_cast<std::int16_t>(winding);
+        SideSum side;
+        surface.locate(p, side);
+        if (side.fits()) sides_[b] = side.code();
     }
     for (std::size_t b = 0; b < sides_.size(); ++b) {
         if (sides_[b] != touched) sides_[b] = sides_[sets.find(b)];

@@ -13,6 +13,36 @@ using index::PlacedFacet, index::Ridge, index::Triangles;
 
 struct SurfaceData;
 
+/// What triangles count in winding numbers (side_rules.cpp).
+struct SideCounts {
+    SideRules rules;
+    /// By place: how many times a triangle counts as it is turned, or `parity`; empty: each once.
+    std::vector<std::int8_t> of;
+    static constexpr std::int8_t parity = 2;
+};
+SideCounts count_sides(const Triangles& triangles);
+
+/// A winding number, and beside it the parity of what has no other.
+class SideSum {
+public:
+    SideSum() = default;
+    explicit SideSum(std::int16_t code) : winding_(code >> 1), parity_(code & 1) {}
+
+    /// A triangle that a ray crosses: `crossing` as index::crossing() has it.
+    void add(const SideCounts& counts, std::size_t place, int crossing) {
+        const std::int8_t times = counts.of.empty() ? std::int8_t{1} : counts.of[place];
+        if (times == SideCounts::parity) parity_ ^= crossing & 1;
+        if (times != SideCounts::parity) winding_ += times * crossing;
+    }
+    int sum() const { return winding_ + parity_; }
+    /// Both in one number. Precondition: fits().
+    std::int16_t code() const { return static_cast<std::int16_t>(2 * winding_ + parity_); }
+    bool fits() const { return winding_ > -16000 && winding_ < 16000; }
+
+private:
+    int winding_ = 0, parity_ = 0;
+};
+
 /// On which side of a surface the bins of a grid lie that no triangle touches. The box of the surface in bins: whole
 /// numbers of the quantizer without their last bits. All points of a bin that no triangle touches have one winding
 /// number, and so have two such bins side by side: what no triangle touches is connected, and windings change nowhere
@@ -22,10 +52,10 @@ public:
     explicit SideMap(const SurfaceData& surface);
 
     static constexpr std::int16_t touched = INT16_MIN;
-    /// The winding number of a point in the box, exactly; `touched`, if a triangle touches its bin.
+    /// The code of a SideSum of a point in the box, exactly; `touched`, if a triangle touches its bin.
     std::int16_t at(const double* point) const { return sides_[bin_of(point)]; }
 
-    /// A point on the ray from `point` along the first axis, in the next bin that no triangle touches, and its winding;
+    /// A point on the ray from `point` along the first axis, in the next bin that no triangle touches, and its code;
     /// beyond the box that is 0.
     std::int16_t next(const double* point, double (&end)[3]) const;
 
@@ -85,17 +115,15 @@ struct NearGroups {
     std::size_t bytes() const { return triangles.bytes() + boxes.bytes() + order.size() * sizeof(std::uint32_t); }
 };
 
-/// What is left to be decided exactly.
+/// What is left to be decided exactly: triangles, and how near a point of each may be, in squares.
 struct NearCandidates {
-    static constexpr std::size_t most = 64;
-    std::uint32_t number[most];  ///< in NearGroups::order
-    std::size_t count = 0;
+    std::vector<std::uint32_t> number;  ///< in NearGroups::order
+    std::vector<double> low;
 };
 
 /// All triangles that may have the nearest point, or one as near, if it is not farther than sqrt(square) in the unit.
-/// `hint`: a triangle to begin with; becomes one that is near. False if there are more than fit. Precondition: usable;
-/// the point was taken.
-bool find_candidates(const NearGroups& groups, const double (&point)[3], double square, std::uint32_t& hint,
+/// `hint`: a triangle to begin with; becomes one that is near. Precondition: usable; the point was taken.
+void find_candidates(const NearGroups& groups, const double (&point)[3], double square, std::uint32_t& hint,
                      NearCandidates& found);
 
 // The vertex, edge or face of a triangle that is nearest to a point, and the nearest point of that, rounded: what
@@ -121,7 +149,7 @@ struct SurfaceData {
     const Surface* surface = nullptr;
     int threads = 0;
     Triangles triangles;
-    Turned turned = Turned::open;
+    SideCounts sides;
     std::unique_ptr<BoxGroups> boxes;  ///< of the triangles
 
     bool empty() const { return triangles.size() == 0; }
@@ -136,23 +164,25 @@ struct SurfaceData {
         return side_map_.get([&] { return SideMap(*this); });
     }
     std::size_t bytes() const {
-        return triangles.bytes() + (boxes ? boxes->bytes() : 0) + bytes_of(far_tree_, near_groups_, side_map_);
+        return triangles.bytes() + sides.of.size() + (boxes ? boxes->bytes() : 0) +
+               bytes_of(far_tree_, near_groups_, side_map_);
     }
 
     /// Exact, without the map. Precondition: finite.
     SurfaceLocation locate(const double* p) const;
+    SurfaceLocation locate(const double* p, SideSum& side) const;
     SurfaceLocation locate_by_map(const double* p) const;
     /// Points are best in the order of space.
     void nearest(std::span<const double* const> points, double limit, std::span<SurfaceNearest* const> to) const;
-    /// Nothing of triangle -1. False if the triangle has no area.
-    bool nearest_on(Mesh::Index triangle, const double* p, SurfaceNearest& to) const;
+    /// Nothing of triangle -1.
+    void nearest_on(Mesh::Index triangle, const double* p, SurfaceNearest& to) const;
     std::vector<SurfaceHit> hits(const double* a, const double* b, bool ray) const;
 
-    /// By the triangles between p and the end of a ray along the first axis, which has the winding number `side`.
-    SurfaceLocation on_the_way(const double* p, const double* end, int side) const;
-    SurfaceLocation as_location(int winding) const {
-        if (turned == Turned::even) winding &= 1;
-        if (turned == Turned::open) winding = 0;
+    /// What the triangles between p and the end of a ray along the first axis, which has the sum `side`, tell of p: the
+    /// lowest that holds it, or its own sum.
+    SurfaceLocation on_the_way(const double* p, const double* end, SideSum& side) const;
+    SurfaceLocation as_location(const SideSum& side) const {
+        const int winding = sides.rules.turned == Turned::open ? 0 : side.sum();
         return {-1, winding != 0 ? Feature::interior : Feature::outside, winding};
     }
 

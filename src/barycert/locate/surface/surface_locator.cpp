@@ -24,18 +24,6 @@ Status check(const Surface& s) {
     return Done{};
 }
 
-/// How edges tell the two sides apart. What is degenerate counts for nothing.
-Turned turned_of(const Triangles& triangles) {
-    bool even = true, alike = true;
-    const std::vector<Ridge> edges = index::ridges_of(3, triangles.facets);
-    index::for_each_ridge(edges, [&](std::span<const Ridge> edge) {
-        const auto up = std::ranges::count_if(edge, [&](const Ridge& r) { return triangles.ascends(r); });
-        alike = alike && 2 * static_cast<std::size_t>(up) == edge.size();
-        even = even && edge.size() % 2 == 0;
-    });
-    return alike ? Turned::alike : even ? Turned::even : Turned::open;
-}
-
 /// Where the nearest point lies within an edge or a face, of the projection to it.
 double value_at(const Surface& s, const Field& field, bool of_cells, const SurfaceNearest& at, const double* p,
                 std::size_t c) {
@@ -57,7 +45,7 @@ void set_on(const Surface& s, const double* p, SurfaceNearest& n) {
         f.nodes[k] = s.cells[3 * static_cast<std::size_t>(n.cell) + k];
         f.at[k] = &s.points[3 * static_cast<std::size_t>(f.nodes[k])];
     }
-    n.on = index::face_around(3, f, p)[0] >= 0;
+    n.on = index::proper(3, f) ? index::face_around(3, f, p)[0] >= 0 : part_of_flat(f.at, p) != 0;
 }
 
 /// Of points [first, last), those near each other one after the other.
@@ -85,7 +73,7 @@ using namespace locate;
 SurfaceLocator::SurfaceLocator(std::unique_ptr<SurfaceData> data)
     : data_(data.release(), [](SurfaceData* d) { delete d; }) {}
 
-Result<SurfaceLocator> SurfaceLocator::build(const Surface& surface, const BuildOptions& options) {
+Result<SurfaceLocator> SurfaceLocator::build(const Surface& surface, const BuildOptions& options, bool flat) {
     const ExactEnvironment environment;
     if (const Status good = check(surface); !good) return good.error();
     auto data = std::make_unique<SurfaceData>();
@@ -94,9 +82,10 @@ Result<SurfaceLocator> SurfaceLocator::build(const Surface& surface, const Build
     base::in_arena(options.threads, surface.cell_count(), [&] {
         std::vector<Mesh::Index> numbers(surface.cell_count());
         std::iota(numbers.begin(), numbers.end(), 0);
-        data->triangles = index::place_triangles(surface.points, surface.cells, numbers);
+        data->triangles = index::place_triangles(surface.points, surface.cells, numbers,
+                                                 flat ? index::Flat::kept : index::Flat::left_out);
         if (data->empty()) return;
-        data->turned = turned_of(data->triangles);
+        data->sides = count_sides(data->triangles);
         data->boxes = std::make_unique<BoxGroups>(make_cell_tree(data->triangles.index));
     });
     return SurfaceLocator(std::move(data));
@@ -105,8 +94,8 @@ Result<SurfaceLocator> SurfaceLocator::build(const Surface& surface, const Build
 const Surface& SurfaceLocator::surface() const {
     return *data_->surface;
 }
-Turned SurfaceLocator::turned() const {
-    return data_->turned;
+const SideRules& SurfaceLocator::sides() const {
+    return data_->sides.rules;
 }
 std::size_t SurfaceLocator::bytes() const {
     return data_->bytes();
@@ -125,7 +114,7 @@ Status SurfaceLocator::locate(std::span<const double> points, std::span<SurfaceL
     if (Status status = check_finite(points, 3); !status) return status.error();
     base::in_arena(threads, found.size(), [&] {
         // A map pays for itself once there are as many points as a fraction of the triangles.
-        const bool map = !data_->empty() && data_->turned != Turned::open && 4 * found.size() > data_->triangles.size();
+        const bool map = turned() != Turned::open && 4 * found.size() > data_->triangles.size();
         if (map) data_->side_map();
         base::parallel_for_each(found.size(), 512, [&](std::size_t i) {
             found[i] = map ? data_->locate_by_map(&points[3 * i]) : data_->locate(&points[3 * i]);
@@ -168,14 +157,12 @@ Status SurfaceLocator::nearest_on(std::span<const Mesh::Index> triangles, std::s
         return Error{.what = "as many triangles and places for results as points"};
     if (Status status = check_cells(triangles, data_->surface->cell_count()); !status) return status.error();
     if (Status status = check_finite(points, 3); !status) return status.error();
-    std::atomic<bool> flat{false};
     base::in_arena(threads, found.size(), [&] {
         base::parallel_for_each(found.size(), 256, [&](std::size_t i) {
-            if (!data_->nearest_on(triangles[i], &points[3 * i], found[i])) flat = true;
+            data_->nearest_on(triangles[i], &points[3 * i], found[i]);
             set_on(*data_->surface, &points[3 * i], found[i]);
         });
     });
-    if (flat) return Error{.what = "a triangle of zero area, on which no point is nearest"};
     return Done{};
 }
 
