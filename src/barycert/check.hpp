@@ -216,8 +216,9 @@ inline constexpr std::array<DefectText, 41> defect_texts{{
      "turn their triangles", false},
     {DefectKind::facet_off_plane, "facet_off_plane", "", "facets whose nodes do not lie exactly in one plane", "",
      false},
-    {DefectKind::misplaced_point, "misplaced_point", "", "hole and region points on a facet, or in no closed part",
-     "move the point into the part that is meant", false},
+    {DefectKind::misplaced_point, "misplaced_point", "S3", "hole and region points on a facet, or in no closed part",
+     "move the point into the part that is meant", false, "hole or region point is misplaced",
+     "hole or region points are misplaced"},
     {DefectKind::folded_cell, "folded_cell", "P2",
      "cells with parts that are turned both ways: warped too far, or folded",
      "move a node of the cell, or correct the order of its nodes", true, "cell is folded", "cells are folded"},
@@ -245,6 +246,7 @@ struct DefectPlace {
     std::array<Mesh::Index, 3> other_nodes{-1, -1, -1};
     double distance = 0;  ///< of near nodes, or of a node from what it nearly lies within; rounded
     double relative = 0;  ///< that over the shortest edge of the boundary at these nodes
+    std::optional<std::array<double, 3>> point = {};  ///< of a PLC that it is about
 };
 
 struct Defect {
@@ -345,9 +347,11 @@ struct ConformityReport {
 };
 
 struct CheckOptions {
-    int threads = 0;            ///< 0: one per core
-    bool delaunay = false;      ///< test every interior facet
-    const Plc* plc = nullptr;   ///< test conformity to its facets (tetrahedra only)
+    int threads = 0;           ///< 0: one per core
+    bool delaunay = false;     ///< test every interior facet
+    const Plc* plc = nullptr;  ///< test conformity to its facets (tetrahedra only)
+    /// Of check_plc: facets are turned, as polygons of surfaces are, and two are turned alike or not.
+    bool turned_facets = false;
     std::size_t examples = 10;  ///< max number of places kept of each defect
     std::size_t contacts = 20;  ///< max number of pairs of cells for which a common point is computed
     /// Boundary nodes of no common cell nearly coincide if they lie at most this times the shortest edge of the
@@ -412,10 +416,11 @@ std::vector<NotFinite> not_finite_values(const Mesh& mesh);
 // Surfaces and PLCs. Two nodes at one place are one node here, as for TetGen. A surface is certified if
 //   S1  every coordinate is finite, every corner is a node, no triangle is degenerate, and every facet of a PLC can be
 //       cut into triangles of its nodes (read_surface);
-//   S2  two triangles meet, if at all, in a common node or edge of both; no node or segment of a PLC lies on a facet
-//       that does not have it;
+//   S2  two triangles meet, if at all, in a common node or edge of both, and where sheets of the surface, as its nodes
+//       join triangles, have an edge at one place they do not pass through each other there; no node or segment of a
+//       PLC lies on a facet that does not have it;
 //   S3  it is closed: each edge has two triangles or more. Of a PLC, which may have open facets inside: the facets
-//       enclose a region.
+//       enclose a region; and each region point is in one or on a facet.
 // All of it is decided exactly, from signs of orientations of nodes. Facets of a PLC whose nodes do not lie in one
 // plane stand for the triangles that they are cut into; how far off they are is told.
 
@@ -448,7 +453,7 @@ struct SurfaceReport {
     bool plc = false;          ///< facets, segments and points
     std::uint64_t facets = 0;  ///< of the file: polygons, or facets of a PLC
     std::uint64_t edges = 0;
-    std::uint64_t places = 0;  ///< nodes that triangles have, those at one place counted once
+    std::uint64_t places = 0;  ///< of nodes with finite coordinates
     bool closed = false, manifold = false, oriented = false, outward = false;
     std::uint64_t shell_count = 0;
     std::vector<SurfaceShell> shells;    ///< the first 1000; `inside` is known if S1 and S2 hold
@@ -501,7 +506,8 @@ struct CheckReport {
 
 CheckReport check_mesh(const Mesh& mesh, const CheckOptions& options = {});
 
-/// Takes `threads`, `examples`, `contacts`, `near`, `verdict_only`, `progress`. Time O(n log n); pairs as check_mesh.
+/// Takes `threads`, `turned_facets`, `examples`, `contacts`, `near`, `verdict_only`, `progress`. Time O(n log n); pairs
+/// as check_mesh.
 CheckReport check_surface(const Surface& surface, const CheckOptions& options = {});
 CheckReport check_plc(const Plc& plc, const CheckOptions& options = {});
 

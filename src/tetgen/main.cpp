@@ -90,7 +90,21 @@ bool find_reason(const Options& options, const Plc& plc, Error& error) {
     return true;
 }
 
-Error tetgen_error(const Options& options, const ChildOutcome& outcome, const std::string& verdict) {
+/// TetGen kept no cell: of a closed surface it took facets that are nearly in one plane for one.
+Error carved_error(const Options& options, const Plc& plc) {
+    const CheckReport report = check_plc(plc, {.examples = 0, .contacts = 0});
+    const auto kept = std::ranges::count(report.surface->regions, false, &SurfaceRegion::hole);
+    if (!report.certified() || kept == 0)
+        return file_error(options.input,
+                          "no cell is left: the facets do not enclose a volume, or a hole point lies in the region", {},
+                          {},
+                          fmt::format("close the surface; `barycert check {}` says where it is open",
+                                      base::shell_word(options.input)));
+    return file_error(options.input, "TetGen kept no cell, although the facets enclose a region", {}, {},
+                      "it merges facets that are nearly in one plane: keep them apart by --switches pM");
+}
+
+Error tetgen_error(const Options& options, const Plc& plc, const ChildOutcome& outcome, const std::string& verdict) {
     const auto error = [&](std::string what, std::string_view remedy) {
         return file_error(options.input, std::move(what), {}, {}, std::string(remedy));
     };
@@ -104,9 +118,7 @@ Error tetgen_error(const Options& options, const ChildOutcome& outcome, const st
     if (outcome.signal)
         return error(fmt::format("TetGen crashed by signal {} ({})", *outcome.signal, strsignal(*outcome.signal)),
                      "repair the PLC, or try other options");
-    if (verdict == "carved")
-        return error("no cell is left: the facets do not enclose a volume, or a hole point lies in the region",
-                     "close the surface");
+    if (verdict == "carved") return carved_error(options, plc);
     if (!verdict.starts_with("failed "))
         return error(fmt::format("TetGen exited with code {}", outcome.exit_code),
                      "repair the PLC, or try other options");
@@ -133,7 +145,7 @@ int run(const Options& options) {
         return outcome.printed.find("No faces are intersecting") != std::string::npos ? 0 : 2;
     }
     if (!verdict.starts_with("mesh ")) {
-        Error error = tetgen_error(options, outcome, verdict);
+        Error error = tetgen_error(options, plc, outcome, verdict);
         const bool suspect = verdict.starts_with("failed ") || (verdict.empty() && !outcome.timed_out);
         const bool found = suspect && find_reason(options, plc, error);
         fmt::print(stderr, "error: {}\n{}", error.message(), found ? "" : last_lines(outcome.printed));

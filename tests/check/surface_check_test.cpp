@@ -291,6 +291,40 @@ TEST(SurfaceCheck, WhatIsWrong) {
     EXPECT_EQ(r.find(DefectKind::node_on_facet)->places[0].nodes[0], 3);
 }
 
+// What breaks S1 is left out of all else.
+TEST(SurfaceCheck, RegionsBesideWhatHasNoArea) {
+    Surface s = surface_of({1, {1}});
+    s.cells.insert(s.cells.end(), {0, 1, 1});
+    s.points.insert(s.points.end(), {5, 0, 0, 6, 0, 0, 7, 0, 0, 0, 0, 0});
+    s.cells.insert(s.cells.end(), {8, 9, 10});
+    const CheckReport r = check_surface(s);
+    EXPECT_FALSE(r.certified());
+    EXPECT_EQ(count(r, DefectKind::repeated_node), 1);
+    EXPECT_EQ(count(r, DefectKind::degenerate_triangle), 1);
+    ASSERT_EQ(r.surface->regions.size(), 1);
+    EXPECT_EQ(r.surface->regions[0].volume, 1);
+    EXPECT_EQ(r.surface->places, 11);  // the last node is where one of the cube is
+}
+
+/// Two sheets bent at one edge, each with nodes of its own there: they pass through each other, or touch.
+TEST(SurfaceCheck, SheetsThatPassThroughEachOther) {
+    for (const bool pass : {true, false}) {
+        Surface s;
+        // Around the axis: 0 and 2, 1 and 3 are a sheet, or 0 and 1, 2 and 3.
+        s.points = {0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 1, 1, 0, 0, 0, 1, 0, -1, 0, 0, 0, -1, 0};
+        for (Mesh::Index i = 0; i < 4; ++i) {
+            const Mesh::Index sheet = pass ? i % 2 : i / 2, low = 2 * sheet;
+            s.cells.insert(s.cells.end(), {low, low + 1, 4 + i});
+        }
+        const CheckReport r = check_surface(s);
+        EXPECT_EQ(count(r, DefectKind::self_intersection), pass ? 1 : 0);
+        EXPECT_EQ(r.contacts.size(), pass ? 1 : 0);
+        if (pass) {
+            EXPECT_EQ(pairs_of(r, DefectKind::self_intersection), Pairs({{0, 1}}));
+        }
+    }
+}
+
 TEST(SurfaceCheck, PinchedNodesAndEdges) {
     Surface s = surface_of({2, {1, 0, 0, 1, 0, 0, 0, 0}});  // two voxels that share an edge
     CheckReport r = check_surface(s);
@@ -495,6 +529,42 @@ TEST(PlcCheck, LooseSegmentsAtOnePlaceAndMany) {
     EXPECT_EQ(count(r, DefectKind::segments_meet), 1000);
     EXPECT_TRUE(r.find(DefectKind::segments_meet)->at_least);
     EXPECT_EQ(count(check_plc(plc, {.verdict_only = true}), DefectKind::segments_meet), 1);
+}
+
+// Polygons that turn as surfaces do are asked whether they turn alike; those of .poly are not.
+TEST(PlcCheck, TurnedFacets) {
+    const Plc plc = cube_plc();
+    EXPECT_EQ(count(check_plc(plc), DefectKind::misoriented_edge), 0);
+    EXPECT_EQ(count(check_plc(plc, {.turned_facets = true}), DefectKind::misoriented_edge), 4);
+}
+
+TEST(PlcCheck, PolygonsThatNameANodeTwice) {
+    Plc plc = cube_plc();
+    plc.facets[2].polygons[0] = {0, 1, 1, 5, 4};
+    const CheckReport r = check_plc(plc);
+    EXPECT_FALSE(r.certified());
+    ASSERT_EQ(count(r, DefectKind::repeated_node), 1);
+    EXPECT_EQ(r.cell_number(r.find(DefectKind::repeated_node)->places[0].cells)[0], 2);
+    EXPECT_EQ(r.surface->regions.size(), 1);
+    // The last and the first; a triangle is told once.
+    plc.facets[2].polygons[0] = {1, 5, 4, 0, 1};
+    EXPECT_EQ(count(check_plc(plc), DefectKind::repeated_node), 1);
+    plc.facets[2].polygons[0] = {0, 1, 5, 4};
+    plc.facets.push_back({.polygons = {{0, 1, 1}}, .holes = {}});
+    EXPECT_EQ(count(check_plc(plc), DefectKind::repeated_node), 1);
+    EXPECT_EQ(check_plc(plc).surface->regions.size(), 1);
+}
+
+TEST(PlcCheck, RegionPointsOutside) {
+    Plc plc = cube_plc();
+    plc.holes = {3, 3, 3};
+    EXPECT_TRUE(check_plc(plc).certified());
+    plc.regions = {5, 6, 7, 1, 0.1};
+    const CheckReport r = check_plc(plc);
+    EXPECT_FALSE(r.certified());
+    const std::vector<DefectPlace>& places = r.find(DefectKind::misplaced_point)->places;
+    ASSERT_EQ(places.size(), 2);
+    EXPECT_EQ(places[1].point, (std::array<double, 3>{5, 6, 7}));
 }
 
 // A point where facets meet is told of the lowest.

@@ -141,7 +141,9 @@ void check_it(const CheckJob& job, const CheckOptions& options, CheckedMesh& che
     refuse_options_of_meshes(job, plc ? "a PLC" : "a surface");
     checked.name = checked.artifact = job.mesh;
     checked.mesh.index_base = checked.surface.index_base;
-    checked.report = plc ? check_plc(*plc, options) : check_surface(checked.surface, options);
+    CheckOptions of_facets = options;
+    of_facets.turned_facets = io::is_polygons_file(job.mesh) && !io::is_plc_file(job.mesh);
+    checked.report = plc ? check_plc(*plc, of_facets) : check_surface(checked.surface, options);
     if (!job.measures.empty()) write_marks(job, checked);
     if (job.picture.empty()) return;
     const Result<Image> image = draw_checked(checked.report, checked.surface);

@@ -19,7 +19,7 @@ struct SurfaceParts : Findings {
     std::vector<Ridge> open = {};        ///< edges of one triangle
     std::vector<Ridge> unbalanced = {};  ///< one of each edge without as many triangles one way as the other
     std::vector<std::array<Place, 2>> pinched = {};  ///< nodes with several fans of triangles, and one of these
-    bool embedded = false;                           ///< S1 and S2 hold
+    bool embedded = false;                           ///< S2 holds, of those that do not break S1
     base::DisjointSets shells{0};                    ///< of places, connected over edges
     base::DisjointSets sides{0};  ///< 2 * place: where its normal points, and the other one; of one region
 
@@ -45,6 +45,11 @@ void link_triangles(SurfaceParts& s);
 /// Shells and sides. Finds open_edge, nonmanifold_edge, nonmanifold_node, misoriented_edge.
 void connect_triangles(SurfaceParts& s);
 
+/// S2 of sheets, as the surface's own nodes join triangles, that have an edge at one place: where one of them comes in
+/// between the triangles of another they pass through each other. Finds self_intersection; returns such pairs. What
+/// lies between the triangles, and so regions, are the same.
+std::vector<CellPair> find_passing_sheets(SurfaceParts& s);
+
 /// Open edges whose ends nearly coincide. Finds near_nodes and crack.
 void find_surface_cracks(SurfaceParts& s);
 
@@ -52,7 +57,8 @@ void find_surface_cracks(SurfaceParts& s);
 /// of the PLC lie. Finds inside_out and misplaced_point.
 void measure_regions(SurfaceParts& s, const Plc* plc);
 
-/// All else of a PLC. Finds facet_off_plane, node_on_facet, segment_in_facet, segments_meet, coincident_nodes.
+/// All else of a PLC. Finds repeated_node, facet_off_plane, node_on_facet, segment_in_facet, segments_meet,
+/// coincident_nodes.
 void check_segments(SurfaceParts& s, const Plc& plc);
 
 /// The intersection of two triangles, as that of cells.

@@ -155,7 +155,10 @@ private:
             s_.defects.add(
                 DefectKind::misplaced_point,
                 {.detail = seed.facet < 0 ? (hole ? "hole point in no closed part" : "region point in no closed part")
-                                          : (hole ? "hole point on a facet" : "region point on a facet")});
+                                          : (hole ? "hole point on a facet" : "region point on a facet"),
+                 .point = std::array{p[0], p[1], p[2]}});
+            // TetGen 1.5 looks for the cell that has it, and crashes where it finds none.
+            if (!hole && seed.facet < 0) s_.defects[DefectKind::misplaced_point].cause = true;
         }
         s_.found.seeds.push_back(seed);
     }

@@ -61,6 +61,21 @@ public:
         }
     }
 
+    /// Polygons that name a node twice, one after the other. Triangles that do are told as such.
+    void find_repeated() {
+        for (std::size_t i = 0; i < plc_.facets.size(); ++i) {
+            const auto& polygons = plc_.facets[i].polygons;
+            for (const auto& polygon : polygons) {
+                if (polygon.size() < 3 || (polygons.size() == 1 && polygon.size() == 3)) continue;
+                for (std::size_t k = 0; k < polygon.size(); ++k) {
+                    if (polygon[k] != polygon[(k + 1) % polygon.size()]) continue;
+                    s_.defects.add_marked(DefectKind::repeated_node,
+                                          {.cells = {triangle_of(i), -1}, .nodes = {polygon[k], -1, -1}});
+                }
+            }
+        }
+    }
+
     /// Segments that are edges of triangles inside facets that do not have them; others are forgotten.
     void find_inner() {
         for_each_ridge(s_.edges, [&](std::span<const Ridge> edge) {
@@ -156,16 +171,23 @@ public:
             const double distance = std::ldexp(farthest, exponent), relative = distance / 2 / extent;
             s_.found.max_off_plane = std::max(s_.found.max_off_plane, distance);
             s_.found.relative_off_plane = std::max(s_.found.relative_off_plane, relative);
-            const auto triangle = std::ranges::lower_bound(s_.surface.facets, static_cast<Mesh::Index>(i));
-            if (triangle == s_.surface.facets.end() || *triangle != static_cast<Mesh::Index>(i)) continue;
+            if (triangle_of(i) < 0) continue;
             s_.defects.add(DefectKind::facet_off_plane,
-                           {.cells = {static_cast<Mesh::Index>(triangle - s_.surface.facets.begin()), -1},
-                            .distance = distance,
-                            .relative = relative});
+                           {.cells = {triangle_of(i), -1}, .distance = distance, .relative = relative});
         }
     }
 
 private:
+    /// The first of a facet; -1: it has none.
+    Mesh::Index triangle_of(std::size_t facet) const {
+        const auto number = static_cast<Mesh::Index>(facet);
+        const std::vector<Mesh::Index>& facets = s_.surface.facets;
+        if (facets.empty()) return facet < s_.surface.cell_count() ? number : -1;
+        const auto triangle = std::ranges::lower_bound(facets, number);
+        return triangle == facets.end() || *triangle != number ? -1
+                                                               : static_cast<Mesh::Index>(triangle - facets.begin());
+    }
+
     /// Loose nodes at one place with others are one: those of triangles if there are some, else the lowest.
     void unite(std::vector<Mesh::Index>& same) {
         if (!have_loose_nodes()) return;
@@ -202,6 +224,7 @@ private:
 
 void check_segments(SurfaceParts& s, const Plc& plc) {
     Segments segments(s, plc);
+    segments.find_repeated();
     segments.find_inner();
     segments.find_meeting();
     segments.find_loose();

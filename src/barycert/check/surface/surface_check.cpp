@@ -41,12 +41,15 @@ void check_all(SurfaceParts& s, const Plc* plc) {
     // What one thread does alone is done beside the rest.
     tbb::task_group beside;
     beside.run([&] { link_triangles(s); });
-    const std::vector<CellPair> pairs = find_intersections(s);
+    std::vector<CellPair> pairs = find_intersections(s);
     beside.wait();
     if (s.enough()) return;
-    s.embedded = !s.defects.breaks();
+    // What breaks S1 is left out of all else.
+    s.embedded = !s.defects.has([](const DefectText& t) { return t.condition == "S2"; });
     s.stage("edges and nodes");
     connect_triangles(s);
+    const std::vector<CellPair> passing = find_passing_sheets(s);
+    pairs.insert(pairs.end(), passing.begin(), passing.end());
     if (plc != nullptr) {
         s.stage("segments");
         check_segments(s, *plc);
@@ -74,6 +77,7 @@ Verdict verdict_of(SurfaceParts s, const std::vector<Fault>& faults, const Plc* 
         check_all(s, plc);
     }
     // --fix is for meshes.
+    s.defects[DefectKind::repeated_node].better_remedy = "take the node out of the polygon, or leave out the triangle";
     s.defects[DefectKind::coincident_nodes].better_remedy = "none needed: nodes at one place count as one";
     s.defects[DefectKind::near_nodes].better_remedy = "merge them in the program that made the surface";
     const Verdict verdict = s.report_defects();

@@ -1,3 +1,5 @@
+#include <map>
+
 #include "barycert/base/lists.hpp"
 #include "barycert/check/surface/parts.hpp"
 
@@ -57,20 +59,14 @@ void connect_triangles(SurfaceParts& s) {
         } else if (edge.size() > 2) {
             s.found.manifold = false;
             s.defects.add_marked(DefectKind::nonmanifold_edge, s.place_of(edge[0]));
-        } else if (ascending != 1 && !s.found.plc) {
+        } else if (ascending != 1 && (!s.found.plc || s.options.turned_facets)) {
             DefectPlace place = s.place_of(edge[0]);
             place.cells[1] = s.triangles.number(edge[1].facet);
             s.defects.add_marked(DefectKind::misoriented_edge, place);
         }
         for (std::size_t i = 1; i < edge.size(); ++i) s.shells.join(edge[0].facet, edge[i].facet);
         if (!s.embedded) return;
-        // Of a triangle that ascends, the side where its normal points looks forward in the turn.
-        const std::span<const Ridge> ring = turn.sorted(edge);
-        for (std::size_t i = 0; i < ring.size(); ++i) {
-            const Ridge &a = ring[i], &b = ring[(i + 1) % ring.size()];
-            s.sides.join(2 * std::size_t{a.facet} + (s.triangles.ascends(a) ? 0 : 1),
-                         2 * std::size_t{b.facet} + (s.triangles.ascends(b) ? 1 : 0));
-        }
+        join_sides(s.triangles, turn.sorted(edge), s.sides);
     });
     for (const auto& [node, triangle] : s.pinched) {
         s.found.manifold = false;
@@ -78,6 +74,54 @@ void connect_triangles(SurfaceParts& s) {
                              {.cells = {s.triangles.number(static_cast<std::size_t>(triangle)), -1},
                               .nodes = {s.triangles.node(node), -1, -1}});
     }
+}
+
+namespace {
+
+/// The surface's own nodes of the edge of a triangle, the lower one first.
+std::array<Mesh::Index, 2> own_ends(const SurfaceParts& s, const Ridge& edge) {
+    const auto& facet = s.triangles.facets[edge.facet];
+    const Mesh::Index* const corners = &s.surface.cells[3 * static_cast<std::size_t>(s.triangles.number(edge.facet))];
+    std::array<Mesh::Index, 2> own{-1, -1};
+    std::size_t found = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+        const double* const p = &s.surface.points[3 * static_cast<std::size_t>(corners[c])];
+        if (!std::equal(p, p + 3, facet.at[edge.other])) own[found++ % 2] = corners[c];
+    }
+    if (own[1] < own[0]) std::swap(own[0], own[1]);
+    return own;
+}
+
+}  // namespace
+
+std::vector<CellPair> find_passing_sheets(SurfaceParts& s) {
+    std::vector<CellPair> pairs;
+    if (!s.triangles.joined || !s.embedded) return pairs;
+    RidgeTurn turn(3, s.triangles.facets);
+    for_each_ridge(s.edges, [&](std::span<const Ridge> edge) {
+        if (edge.size() < 4) return;
+        const std::span<const Ridge> ring = turn.sorted(edge);
+        // Sheets of two triangles, by where these are in the turn.
+        std::map<std::array<Mesh::Index, 2>, std::vector<std::size_t>> places;
+        for (std::size_t i = 0; i < ring.size(); ++i) places[own_ends(s, ring[i])].push_back(i);
+        std::vector<std::array<std::size_t, 2>> sheets;
+        for (const auto& [ends, at] : places) {
+            if (at.size() == 2) sheets.push_back({at[0], at[1]});
+        }
+        std::ranges::sort(sheets);
+        for (std::size_t i = 0; i < sheets.size(); ++i) {
+            for (std::size_t j = i + 1; j < sheets.size() && sheets[j][0] < sheets[i][1]; ++j) {
+                if (sheets[j][1] < sheets[i][1]) continue;
+                std::size_t first = ring[sheets[i][0]].facet, second = ring[sheets[j][0]].facet;
+                if (s.triangles.number(second) < s.triangles.number(first)) std::swap(first, second);
+                pairs.push_back({s.triangles.number(first), s.triangles.number(second)});
+                s.defects.add_marked(DefectKind::self_intersection, {.cells = pairs.back(),
+                                                                     .nodes = s.triangles.nodes(first),
+                                                                     .other_nodes = s.triangles.nodes(second)});
+            }
+        }
+    });
+    return pairs;
 }
 
 }  // namespace barycert::check

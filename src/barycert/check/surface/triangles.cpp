@@ -2,6 +2,39 @@
 
 namespace barycert::check {
 
+namespace {
+
+/// Of nodes with finite coordinates. Those of triangles are known.
+std::uint64_t count_places(const SurfaceParts& s, const std::vector<std::uint8_t>& finite) {
+    std::vector<std::uint8_t> known(finite.size(), 0);
+    std::uint64_t count = 0;
+    for (std::size_t i = 0; i < s.triangles.same.size(); ++i) {
+        known[static_cast<std::size_t>(s.triangles.node(static_cast<Place>(i)))] = 1;
+        count += s.triangles.same[i] == static_cast<Place>(i) ? 1 : 0;
+    }
+    const auto at = [&](std::size_t n) {
+        return std::array{s.surface.points[3 * n], s.surface.points[3 * n + 1], s.surface.points[3 * n + 2]};
+    };
+    std::vector<std::size_t> others;
+    for (std::size_t n = 0; n < finite.size(); ++n) {
+        if (finite[n] != 0 && known[n] == 0) others.push_back(n);
+    }
+    if (others.empty()) return count;
+    std::ranges::sort(others, {}, at);
+    const auto same = std::ranges::unique(others, {}, at);
+    others.erase(same.begin(), same.end());
+    count += others.size();
+    // Those at the place of a node of a triangle, once each.
+    std::vector<std::array<double, 3>> met;
+    for (std::size_t n = 0; n < finite.size(); ++n) {
+        if (known[n] != 0 && std::ranges::binary_search(others, at(n), {}, at)) met.push_back(at(n));
+    }
+    std::ranges::sort(met);
+    return count - static_cast<std::uint64_t>(std::unique(met.begin(), met.end()) - met.begin());
+}
+
+}  // namespace
+
 bool check_triangles(SurfaceParts& s) {
     const Surface& surface = s.surface;
     const std::size_t points = surface.point_count(), count = surface.cell_count();
@@ -33,11 +66,10 @@ bool check_triangles(SurfaceParts& s) {
         const Mesh::Index* const n = &surface.cells[3 * static_cast<std::size_t>(cell)];
         s.defects.add_marked(DefectKind::degenerate_triangle, {.cells = {cell, -1}, .nodes = {n[0], n[1], n[2]}});
     }
-    s.found.places = s.triangles.same.size();
+    s.found.places = count_places(s, finite);
     for (std::size_t i = 0; i < s.triangles.same.size(); ++i) {
         const Place first = s.triangles.same[i];
         if (first == static_cast<Place>(i)) continue;
-        --s.found.places;
         const auto [low, high] = std::minmax({s.triangles.node(first), s.triangles.node(static_cast<Place>(i))});
         s.defects.add(DefectKind::coincident_nodes, {.nodes = {low, high, -1}});
     }

@@ -13,6 +13,12 @@ namespace {
 /// On a page, however many the report holds: it stays small, and --json has them all.
 constexpr std::size_t max_contacts = 8;
 
+/// With where a misplaced point is: it breaks the certificate, and no triangle shows it.
+std::string reason_of_surface(const CheckReport& r, const Defect& f) {
+    if (f.kind != DefectKind::misplaced_point || f.places.empty()) return reason(f);
+    return joined(f.places, ", ", [&](const DefectPlace& p) { return place_text(r, f.kind, p); });
+}
+
 void tell_surface_verdict(Document& d, const CheckReport& r, const std::string& name) {
     const SurfaceReport& s = *r.surface;
     const char* const what = s.plc ? "a valid PLC" : "a closed surface without self-intersections";
@@ -30,9 +36,7 @@ void tell_surface_verdict(Document& d, const CheckReport& r, const std::string& 
     }
     std::vector<std::string> reasons;
     for (const Defect& f : r.defects) {
-        if (f.breaks())
-            reasons.push_back(f.kind == DefectKind::open_edge ? counted(f.count, "edge is open", "edges are open")
-                                                              : reason(f));
+        if (f.breaks()) reasons.push_back(reason_of_surface(r, f));
     }
     if (reasons.empty()) reasons.emplace_back("no triangles");
     d.add(Headline{Tone::bad, name, fmt::format("NOT certified to be {}", what), std::move(reasons)});
@@ -269,10 +273,11 @@ void tell_surface(Document& d, const CheckReport& r) {
                        counted(s.places, "place")));
     d.name("edges",
            fmt::format("{}, {}, {}", s.closed ? "closed" : "NOT closed", s.manifold ? "manifold" : "not manifold",
-                       s.plc         ? "turned as the facets are"
-                       : !s.oriented ? "NOT oriented alike"
-                       : s.outward   ? "oriented outward"
-                                     : "oriented alike"));
+                       r.find(DefectKind::misoriented_edge) != nullptr ? "NOT oriented alike"
+                       : s.plc                                         ? "turned as the facets are"
+                       : !s.oriented                                   ? "NOT oriented alike"
+                       : s.outward                                     ? "oriented outward"
+                                                                       : "oriented alike"));
     if (!s.shells.empty()) tell_shells(d, s);
     tell_regions(d, s);
     if (!s.plc) d.say(tetgen_sentence(r) + ".", Tone::plain, For::page);

@@ -59,6 +59,7 @@ Json place_json(const CheckReport& r, DefectKind kind, const DefectPlace& p) {
     if (p.other_nodes[0] >= 0) put(j, "other_nodes", indices(p.other_nodes));
     if (kind == DefectKind::near_nodes || kind == DefectKind::near_hanging) put(j, MEMBERS(p, distance, relative));
     if (*p.detail != '\0') put(j, "detail", p.detail);
+    if (p.point) put(j, "point", *p.point);
     return j;
 }
 

@@ -93,6 +93,7 @@ std::string place_text(const CheckReport& report, DefectKind kind, const DefectP
     if (!nodes.empty())
         out += fmt::format("{}node{} {}{}{}", out.empty() ? "" : ", ", nodes.size() == 1 ? "" : "s",
                            fmt::join(nodes, " "), others.empty() ? "" : " and ", fmt::join(others, " "));
+    if (p.point) return fmt::format("{} at ({})", p.detail, base::joined(*p.point, ", ", base::shortest));
     if (*p.detail != '\0') out += fmt::format("{}({})", out.empty() ? "" : " ", p.detail);
     return out;
 }
@@ -144,6 +145,8 @@ std::vector<std::string> conformity_sentences(const CheckReport& r, std::size_t 
     return all;
 }
 
+constexpr double tetgen_tolerance = 1e-8;
+
 std::string tetgen_sentence(const CheckReport& r) {
     const SurfaceReport& s = *r.surface;
     const std::string reasons = joined(r.defects, ", ", [](const Defect& f) {
@@ -156,7 +159,8 @@ std::string tetgen_sentence(const CheckReport& r) {
     if (s.regions.empty()) return "TetGen will have nothing to mesh: the triangles enclose no region";
     if (left == 0) return "TetGen will have nothing to mesh: hole points lie in all regions";
     std::string off;
-    if (s.off_plane != 0)
+    // What is less does not matter to TetGen; notes tell it.
+    if (s.relative_off_plane > tetgen_tolerance)
         off = fmt::format("; {} up to {:.3g} of its extent off {} plane, where TetGen's own tolerance is 1e-8",
                           counted(s.off_plane, "facet is", "facets are"), s.relative_off_plane,
                           s.off_plane == 1 ? "its" : "their");
