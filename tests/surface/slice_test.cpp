@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "barycert/surface.hpp"
+#include "barycert/surface/parts.hpp"
 #include "core/rational.hpp"
 #include "surface/fields.hpp"
 #include "surface/judge.hpp"
@@ -124,6 +125,48 @@ TEST(Slice, K1NearTiesWhereHeightsCancelOut) {
     EXPECT_GE(exact, 400U);
 }
 
+/// Of triangles across the third axis.
+double area_of(const Surface& s) {
+    double area = 0;
+    for (std::size_t t = 0; t < s.cell_count(); ++t) {
+        const auto x = [&](std::size_t i, std::size_t k) {
+            return s.points[3 * static_cast<std::size_t>(s.cells[3 * t + i]) + k];
+        };
+        const double twice = (x(1, 0) - x(0, 0)) * (x(2, 1) - x(0, 1)) - (x(1, 1) - x(0, 1)) * (x(2, 0) - x(0, 0));
+        EXPECT_GT(twice, 0) << "normals along that of the plane";
+        area += twice / 2;
+    }
+    return area;
+}
+
+// A section has what of the mesh ends at the plane, wherever it ends.
+TEST(Slice, SectionsWhereTheMeshEnds) {
+    Mesh mesh = box(3, {2, 2, 2});
+    for (const double at : {0.0, 0.5, 1.0, 2.0})
+        EXPECT_EQ(area_of(surface::section(mesh, {{0, 0, 1}, at}, {}).value().surface), 4) << at;
+    EXPECT_EQ(surface::section(mesh, {{0, 0, 1}, 2.5}, {}).value().surface.cell_count(), 0);
+    // A step: a half is one cube high, cells turned at random.
+    std::vector<Mesh::Index> cells;
+    for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
+        double x = 0, z = 0;
+        for (std::size_t i = 0; i < 4; ++i) {
+            x += mesh.point(mesh.cells[4 * c + i])[0] / 4;
+            z += mesh.point(mesh.cells[4 * c + i])[2] / 4;
+        }
+        if (x > 1 && z > 1) continue;
+        cells.insert(cells.end(), &mesh.cells[4 * c], &mesh.cells[4 * c] + 4);
+        if (c % 3 == 0) std::swap(cells.end()[-1], cells.end()[-2]);
+    }
+    mesh.cells = cells;
+    const Cut cut = surface::section(mesh, {{0, 0, 1}, 1}, {}).value();
+    EXPECT_EQ(area_of(cut.surface), 4);
+    EXPECT_EQ(cut.surface.point_count(), 9);
+    EXPECT_EQ(cut.counts.at_nodes, 9U);
+    EXPECT_TRUE(std::ranges::is_sorted(cut.surface.mesh_cells));
+    EXPECT_EQ(area_of(slice(mesh, {{0, 0, 1}, 1}).value().surface), 2);
+    EXPECT_EQ(area_of(surface::section(mesh, {{0, 0, 1}, 2}, {}).value().surface), 2);
+}
+
 TEST(Slice, ThroughTheLatticeOfTheBox) {
     const Mesh mesh = box(3, {2, 2, 2});
     double expected = 4;
@@ -131,17 +174,7 @@ TEST(Slice, ThroughTheLatticeOfTheBox) {
         const Cut cut = expect_right_slice(mesh, {{0, 0, 1}, at}, {});
         // Where the plane is the top, nothing of the mesh is beyond it.
         if (at == 2) expected = 0;
-        double area = 0;
-        const Surface& s = cut.surface;
-        for (std::size_t t = 0; t < s.cell_count(); ++t) {
-            const auto x = [&](std::size_t i, std::size_t k) {
-                return s.points[3 * static_cast<std::size_t>(s.cells[3 * t + i]) + k];
-            };
-            const double twice = (x(1, 0) - x(0, 0)) * (x(2, 1) - x(0, 1)) - (x(1, 1) - x(0, 1)) * (x(2, 0) - x(0, 0));
-            EXPECT_GT(twice, 0) << "normals along that of the plane";
-            area += twice / 2;
-        }
-        EXPECT_EQ(area, expected) << at;
+        EXPECT_EQ(area_of(cut.surface), expected) << at;
         if (at == 1) {
             EXPECT_EQ(cut.counts.on_edges, 0U);
         }

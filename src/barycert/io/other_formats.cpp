@@ -33,8 +33,10 @@ constexpr std::array formats{
     OtherFormat{" .post .dato ", "a mesh of PERMAS", "", "permas"},
     OtherFormat{" .tec .dat ", "a file of Tecplot", "", "tecplot"},
     OtherFormat{" .cas ", "a case of Fluent", "{paraview}"},
-    OtherFormat{" .off .stl .ply .obj .poly .smesh ", "a PLC (a surface), not a mesh",
-                "mesh it first with `barycert mesh {in}`"},
+    OtherFormat{" .off .stl .ply .obj ", "a surface, not a mesh",
+                "check and sample take surfaces; slices, pictures and all else take meshes: if it is closed, fill it "
+                "with `barycert mesh {in}`"},
+    OtherFormat{" .poly .smesh ", "a PLC, not a mesh", "mesh it first with `barycert mesh {in}`"},
     OtherFormat{" .geo .geo_unrolled .brep .step .stp .iges .igs ", "a geometry, not a mesh",
                 "mesh it with `gmsh -3 {in} -format msh41 -o {msh}` (-2 for triangles)"},
     OtherFormat{" .vtkhdf ", "a VTKHDF file", "{paraview}; ParaView 5.11 reads version 1 of the format alone"},

@@ -14,6 +14,7 @@
 #include "barycert/jobs/job_files.hpp"
 #include "barycert/jobs/mesh_figure.hpp"
 #include "barycert/sample/quantity/quantities.hpp"
+#include "barycert/surface/parts.hpp"
 
 namespace barycert {
 namespace {
@@ -179,7 +180,7 @@ private:
             return dot(job_.plane->normal, {x[0], x[1], x[2]});
         };
         set_range(mesh_, height, report_);
-        return slice(mesh_, *job_.plane, options).value();
+        return surface::section(mesh_, *job_.plane, options).value();
     }
 
     Cut cut_with_fields() {

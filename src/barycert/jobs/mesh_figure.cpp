@@ -15,6 +15,7 @@
 #include "barycert/mesh/pulling.hpp"
 #include "barycert/sampler.hpp"
 #include "barycert/surface/edges.hpp"
+#include "barycert/surface/parts.hpp"
 
 namespace barycert::jobs {
 namespace {
@@ -199,7 +200,7 @@ void MeshFigure::add_mesh() {
                                       {!show_.slices.empty(), "a slice"},
                                       {!show_.iso.empty(), "an iso-surface"}})
         if (given && plane) refuse("", std::string(what) + " is of meshes in space", "", "triangles in the plane");
-    for (const Plane& cut : show_.slices) add_cut(slice(*mesh_, cut, options).value().surface, "a slice");
+    for (const Plane& cut : show_.slices) add_cut(surface::section(*mesh_, cut, options).value().surface, "a slice");
     if (!show_.iso.empty()) {
         const FieldChoice of = field_of_numbers(*mesh_, show_.iso_field, made_, notes_);
         if (of.of_cells) refuse("", "field \"" + show_.iso_field + "\" is one of cells", "a field of nodes", "");

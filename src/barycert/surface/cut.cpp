@@ -252,10 +252,10 @@ States states_of(const Mesh& mesh, const Level& level) {
 }
 
 template <class Level>
-Result<Cut> cut_at(const Mesh& mesh, const Level& level, const CutOptions& options) {
+Result<Cut> cut_at(const Mesh& mesh, const Level& level, const CutOptions& options, bool ends = false) {
     Cut cut;
     const States states = states_of(mesh, level);
-    if (Status done = cut_cells(mesh, states, cut.surface, cut.counts); !done) return done.error();
+    if (Status done = cut_cells(mesh, states, ends, cut.surface, cut.counts); !done) return done.error();
     cut.counts.tiers = place_points(mesh, level, options, cut.surface);
     take_rows(options.cell_fields, cut.surface.mesh_cells, 1, cut.surface.cell_fields);
     cut.counts.second_order = mesh.mid_nodes.empty() ? 0 : mesh.cell_count();
@@ -272,6 +272,15 @@ Result<Cut> cut_field(int dimension, const Mesh& mesh, const Field& field, doubl
         return Error{.what = "the value to cut at", .expected = "a finite number", .found = base::shortest(value)};
     return on_good_input(mesh, dimension, options,
                          [&] { return cut_at(mesh, FieldLevel(field, component, value), options); });
+}
+
+Result<Cut> cut_plane(const Mesh& mesh, const Plane& plane, const CutOptions& options, bool ends) {
+    const ExactEnvironment environment;
+    const auto& n = plane.normal;
+    if (!std::isfinite(plane.offset) || !base::all_finite(n) || (n[0] == 0 && n[1] == 0 && n[2] == 0))
+        return file_error({}, "the plane", "four finite numbers, the normal not zero",
+                          base::joined(std::array{n[0], n[1], n[2], plane.offset}, ", ", base::shortest));
+    return on_good_input(mesh, 3, options, [&] { return cut_at(mesh, PlaneLevel(mesh, plane), options, ends); });
 }
 
 }  // namespace
@@ -292,13 +301,11 @@ Result<Cut> isoline(const Mesh& mesh, const Field& field, double value, const Cu
 }
 
 Result<Cut> slice(const Mesh& mesh, const Plane& plane, const CutOptions& options) {
-    const ExactEnvironment environment;
-    const auto& n = plane.normal;
-    if (!std::isfinite(plane.offset) || !base::all_finite(n) || (n[0] == 0 && n[1] == 0 && n[2] == 0))
-        return file_error({}, "the plane", "four finite numbers, the normal not zero",
-                          base::joined(std::array{n[0], n[1], n[2], plane.offset}, ", ", base::shortest));
-    return surface::on_good_input(mesh, 3, options,
-                                  [&] { return surface::cut_at(mesh, surface::PlaneLevel(mesh, plane), options); });
+    return surface::cut_plane(mesh, plane, options, false);
+}
+
+Result<Cut> surface::section(const Mesh& mesh, const Plane& plane, const CutOptions& options) {
+    return cut_plane(mesh, plane, options, true);
 }
 
 }  // namespace barycert

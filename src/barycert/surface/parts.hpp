@@ -71,8 +71,13 @@ std::size_t mixed_cells(const Mesh::Index* corners, std::size_t n, std::size_t c
 
 /// Sets cells, mesh_cells and mesh_edges of the surface, and the counts of cells and points, from the State of each
 /// node. On all threads of the calling arena. Error: a corner of a cell that is no node; more points or triangles than
-/// indices can number.
-Status cut_cells(const Mesh& mesh, const States& states, Surface& surface, CutCounts& counts);
+/// indices can number. With `ends`, facets that only one cell has, in the set, and where g is 0 are part of it: there a
+/// mesh ends at a plane.
+Status cut_cells(const Mesh& mesh, const States& states, bool ends, Surface& surface, CutCounts& counts);
+
+/// slice(), and where the mesh ends at the plane, too: there K2 does not hold. Facets in the plane that one cell alone
+/// has are part of it on whichever side the cell is; normals are along that of the plane.
+Result<Cut> section(const Mesh& mesh, const Plane& plane, const CutOptions& options);
 
 // The middle tier of crossings, on SIMD lanes, dispatched at run time as those of core/lanes.hpp.
 

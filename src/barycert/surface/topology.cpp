@@ -97,14 +97,58 @@ std::vector<std::int8_t> flat_signs(const Mesh& mesh, const std::vector<Index>& 
     return signs;
 }
 
+/// A facet where g is 0, its corners ascending, and its cell.
+struct LevelFacet {
+    std::array<Index, 3> corners{};
+    Index cell = 0;
+    bool in_set = false;  ///< so is the cell's other corner
+
+    auto operator<=>(const LevelFacet&) const = default;
+};
+
+/// Cells of the set, ascending, that have a facet where g is 0, and no other cell has it. Precondition: tetrahedra,
+/// whose corners are nodes.
+std::vector<Index> cells_at_ends(const Mesh& mesh, const States& states) {
+    std::vector<Index> cells;
+    if (std::ranges::find(states.of, std::uint8_t{on}) == states.of.end()) return cells;
+    std::vector<LevelFacet> facets;
+    for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
+        LevelFacet facet{.cell = static_cast<Index>(c)};
+        std::size_t count = 0;
+        std::uint8_t apex = unknown;
+        for (std::size_t i = 0; i < 4; ++i) {
+            const Index node = mesh.cells[4 * c + i];
+            const std::uint8_t state = states.of[static_cast<std::size_t>(node)];
+            if (state != on) apex = state;
+            if (state == on && count < 3) facet.corners[count] = node;
+            count += state == on ? 1 : 0;
+        }
+        if (count != 3 || apex == unknown) continue;
+        std::ranges::sort(facet.corners);
+        facet.in_set = apex == inside;
+        facets.push_back(facet);
+    }
+    std::ranges::sort(facets);
+    for (std::size_t i = 0; i < facets.size(); ++i) {
+        const bool alone = (i == 0 || facets[i - 1].corners != facets[i].corners) &&
+                           (i + 1 == facets.size() || facets[i + 1].corners != facets[i].corners);
+        if (alone && facets[i].in_set) cells.push_back(facets[i].cell);
+    }
+    std::ranges::sort(cells);
+    return cells;
+}
+
 template <std::size_t n>
 class Cutter {
 public:
-    Cutter(const Mesh& mesh, const States& states) : mesh_(mesh), states_(states) {}
+    Cutter(const Mesh& mesh, const States& states, bool ends) : mesh_(mesh), states_(states), ends_(ends) {}
 
     Status cut(Surface& surface, CutCounts& counts) {
         if (!find_cells()) return bad_index();
         orient_flat_cells();
+        if constexpr (n == 4) {
+            if (ends_) add_ends();
+        }
         count_parts();
         gather_ends();
         const std::size_t points = first_.back();
@@ -163,6 +207,22 @@ private:
             }
         });
         return good;
+    }
+
+    /// As if the cell's other corner were outside, but turned: normals point out of the set, away from the cell.
+    void add_ends() {
+        for (const Index cell : cells_at_ends(mesh_, states_)) {
+            CutCell<n> cut{.cell = cell};
+            std::copy_n(mesh_.cells.data() + n * static_cast<std::size_t>(cell), n, cut.corners.data());
+            for (std::size_t i = 0; i < n; ++i) {
+                if (states_.of[static_cast<std::size_t>(cut.corners[i])] == on)
+                    cut.states = static_cast<std::uint8_t>(cut.states | std::uint8_t{on} << (2 * i));
+            }
+            cut.sign = static_cast<std::int8_t>(-static_cast<int>(orientation(mesh_, cut.corners.data())));
+            std::vector<CutCell<n>>& cells = blocks_[static_cast<std::size_t>(cell) / block_size].cells;
+            const auto at = std::ranges::lower_bound(cells, cell, {}, &CutCell<n>::cell);
+            if (cut.sign != 0) cells.insert(at, cut);
+        }
     }
 
     void orient_flat_cells() {
@@ -307,6 +367,7 @@ private:
 
     const Mesh& mesh_;
     const States& states_;
+    bool ends_;
     std::vector<Block<n>> blocks_;
     std::size_t part_count_ = 0;
     std::vector<std::size_t> begin_, first_;  ///< of each node, and the end of all
@@ -316,10 +377,10 @@ private:
 
 }  // namespace
 
-Status cut_cells(const Mesh& mesh, const States& states, Surface& surface, CutCounts& counts) {
+Status cut_cells(const Mesh& mesh, const States& states, bool ends, Surface& surface, CutCounts& counts) {
     surface.dimension = mesh.dimension;
-    return mesh.dimension == 2 ? Cutter<3>(mesh, states).cut(surface, counts)
-                               : Cutter<4>(mesh, states).cut(surface, counts);
+    return mesh.dimension == 2 ? Cutter<3>(mesh, states, ends).cut(surface, counts)
+                               : Cutter<4>(mesh, states, ends).cut(surface, counts);
 }
 
 }  // namespace barycert::surface
