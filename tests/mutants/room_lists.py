@@ -24,11 +24,16 @@ CHECK = [
     ("plc_facet.hpp", "area_ += std::fabs(", "area_ -= std::fabs(", "the share of a facet below 0"),
     ("surface/regions.cpp", "all.chamber[front] - part.six[k]", "all.chamber[front] + part.six[k]", "chambers on the side of a normal"),
     ("surface/regions.cpp", "all.chamber[back] + part.six[k]", "all.chamber[back]", "chambers behind triangles"),
-    ("surface/topology.cpp", "2 * std::size_t{b.facet} + (s.triangles.ascends(b) ? 1 : 0)", "2 * std::size_t{b.facet} + (s.triangles.ascends(b) ? 0 : 1)", "sides that look at each other"),
+    ("surface/topology.cpp", "if (sheets[j][1] < sheets[i][1]) continue;", "", "sheets that touch said to pass through each other"),
+    ("surface/surface_check.cpp", "return t.condition == \"S2\";", "return t.breaks;", "no regions beside triangles without an area"),
     ("surface/topology.cpp", "turn.sorted(edge)", "edge", "the order of triangles around an edge"),
     ("pairs.cpp", "if (!complete) c.defects[DefectKind::nested_part].at_least = true;", "", "not said that there may be more"),
 ]
 LOCATE = [
+    ("surface/side_rules.cpp", "outward < 0 ?", "outward > 0 ?", "shells turned inside out"),
+    ("surface/side_rules.cpp", "if (--left[e] == 1) single.push_back(e);", "", "fins of fins are left"),
+    ("surface/nearest_triangle.cpp", "distance[i] < 0 || distance[i] == least", "distance[i] == least", "many candidates whose distance is not certain"),
+    ("near_flat.cpp", "if (signs.sign(0) == Sign::positive) return 1U << a | 1U << b;", "return 1U << a | 1U << b;", "a segment beyond its end"),
     ("contested_cells.cpp", "if (index_.original[cells_[i]] < index_.original[cells_[j]]) std::swap(i, j);", "if (i < j) std::swap(i, j);", "lower by place, not by number"),
     ("contested_cells.cpp", "cells_.size() + 7) / 8", "cells_.size()) / 8", "the last group of cells"),
     ("near_bounds.hpp", "if (size_x > 0) error += size_x * size_y * roundings + min;", "", "no bound of the error"),
