@@ -109,10 +109,18 @@ std::vector<CellPair> find_passing_sheets(SurfaceParts& s) {
             if (at.size() == 2) sheets.push_back({at[0], at[1]});
         }
         std::ranges::sort(sheets);
+        const auto lower = [&](const std::array<std::size_t, 2>& sheet) {
+            const std::size_t a = ring[sheet[0]].facet, b = ring[sheet[1]].facet;
+            return s.triangles.number(a) < s.triangles.number(b) ? a : b;
+        };
         for (std::size_t i = 0; i < sheets.size(); ++i) {
             for (std::size_t j = i + 1; j < sheets.size() && sheets[j][0] < sheets[i][1]; ++j) {
                 if (sheets[j][1] < sheets[i][1]) continue;
-                std::size_t first = ring[sheets[i][0]].facet, second = ring[sheets[j][0]].facet;
+                if (pairs.size() == pair_limit) {
+                    s.defects[DefectKind::self_intersection].at_least = true;
+                    return;
+                }
+                std::size_t first = lower(sheets[i]), second = lower(sheets[j]);
                 if (s.triangles.number(second) < s.triangles.number(first)) std::swap(first, second);
                 pairs.push_back({s.triangles.number(first), s.triangles.number(second)});
                 s.defects.add_marked(DefectKind::self_intersection, {.cells = pairs.back(),
