@@ -174,6 +174,75 @@ TEST_P(Isoparametric, V1TiesOnLatticesAreRoundedToEven) {
 }
 
 /// The field 3 x at x = 1 + 2^-52, between two doubles, where reference coordinates are no fractions.
+// Near the apex r and s are told by the direction from there alone. With w = 1 - t, Newton's method in 100 digits on
+// apex + w Q(r, s), where w and the point are scaled.
+TEST(IsoparametricValues, V1PyramidsNearTheirApex) {
+    std::mt19937_64 random(5);
+    const auto uniform = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+    const Reference& reference = *linear_reference(14);
+    for (int i = 0; i < 400; ++i) {
+        Cell c{14, unit_cell(14), {}};
+        const bool at_origin = i % 2 == 0;
+        for (std::size_t node = 0; node < 5; ++node) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                c.at[node][k] += node < 4 ? uniform(-0.15, 0.15) : 0;
+                if (at_origin) c.at[node][k] -= k == 2 ? 1 : 0.5;
+            }
+            c.values.push_back(node == 4 && i % 4 < 2 ? 0 : uniform(-1, 1));
+        }
+        ASSERT_NE(proved_orientation(reference, c.places()), 0);
+        const int down = at_origin ? i : i % 45;
+        const std::array<double, 3>& apex = c.at[4];
+        std::array<double, 3> p{};
+        const std::array<double, 2> start{uniform(0.1, 0.9), uniform(0.1, 0.9)};
+        const auto base = [&](const Digits& r, const Digits& s, std::size_t k) {
+            const std::array<Digits, 4> n{(1 - r) * (1 - s), r * (1 - s), r * s, (1 - r) * s};
+            Digits sum = 0;
+            for (std::size_t node = 0; node < 4; ++node) sum += n[node] * (Digits(c.at[node][k]) - Digits(apex[k]));
+            return sum;
+        };
+        for (std::size_t k = 0; k < 3; ++k)
+            p[k] = Digits(apex[k] + ldexp(base(start[0], start[1], k), -down - 1)).convert_to<double>();
+        if (p == apex) continue;
+        // 2^down (p - apex) = w Q(r, s), by r, s and w.
+        std::array<Digits, 3> x{start[0], start[1], 0.5};
+        for (int step = 0; step < 200; ++step) {
+            std::array<std::array<Digits, 4>, 3> rows;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const Digits q = base(x[0], x[1], k);
+                rows[k] = {x[2] * (base(1, x[1], k) - base(0, x[1], k)), x[2] * (base(x[0], 1, k) - base(x[0], 0, k)),
+                           q, ldexp(Digits(Digits(p[k]) - Digits(apex[k])), down) - x[2] * q};
+            }
+            for (std::size_t k = 0; k < 3; ++k) {
+                std::size_t pivot = k;
+                for (std::size_t j = k; j < 3; ++j) pivot = abs(rows[j][k]) > abs(rows[pivot][k]) ? j : pivot;
+                std::swap(rows[k], rows[pivot]);
+                for (std::size_t j = 0; j < 3; ++j) {
+                    if (j == k) continue;
+                    const Digits factor = rows[j][k] / rows[k][k];
+                    for (std::size_t m = 0; m < 4; ++m) rows[j][m] -= factor * rows[k][m];
+                }
+            }
+            Digits moved = 0;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const Digits by = rows[k][3] / rows[k][k];
+                x[k] += by;
+                moved += abs(by);
+            }
+            if (moved < 1e-90) break;
+        }
+        if (x[0] < 0 || x[0] > 1 || x[1] < 0 || x[1] > 1) continue;  // p was rounded
+        const Digits w = ldexp(x[2], -down);
+        const std::array<Digits, 4> n{(1 - x[0]) * (1 - x[1]), x[0] * (1 - x[1]), x[0] * x[1], (1 - x[0]) * x[1]};
+        Digits sum = (1 - w) * c.values[4];
+        for (std::size_t node = 0; node < 4; ++node) sum += w * n[node] * c.values[node];
+        double value = 0;
+        const Evaluated found = evaluate(reference, c.places(), p.data(), 31, c.values.data(), 1, &value);
+        ASSERT_EQ(found.certainty, Certainty::proved) << i;
+        ASSERT_EQ(value, sum.convert_to<double>()) << i;
+    }
+}
+
 TEST(IsoparametricValues, V1TiesThatNoPrecisionTellsHaveABound) {
     const std::array<std::array<double, 2>, 4> nodes{{{0, 0}, {4, 0}, {3, 3}, {0, 2}}};
     Places places{};

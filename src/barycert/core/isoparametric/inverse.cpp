@@ -48,9 +48,9 @@ template <class T>
 bool values_in(const Reference& of, const Inverse& inverse, std::vector<Component>& all, double goal,
                std::vector<std::uint8_t>& open, double* out, Vector<double>* about) {
     std::array<Ball<T>, 3> x;
-    if (!inverse.enclose<T>(x, goal) || !may_be_inside(of, x)) return false;
+    if (!inverse.enclose<T>(x, goal) || !inverse.may_be_inside(x)) return false;
     std::array<Ball<T>, max_nodes> n;
-    shape_functions(of, x, n, nullptr);
+    inverse.functions(x, n);
     for (std::size_t c = 0; c < all.size(); ++c) {
         if (open[c] == 0) continue;
         const Ball<T> sum = sum_of(of, n, all[c]);
@@ -95,7 +95,7 @@ Evaluated evaluate(const Reference& of, const Places& places, const double* poin
         any = true;
     }
     if (!any) return {Certainty::proved, Tier::double_double};
-    Inverse inverse(of, places, point);
+    Inverse inverse(of, places, point, true);
     const auto left = [&] { return std::ranges::count(open, 1) != 0; };
     Vector<double> about{};
     const bool found = inverse.search() && values_in<TwoDoubles>(of, inverse, all, 0x1p-88, open, out, &about);

@@ -37,9 +37,9 @@ Evaluated evaluate(const Reference& reference, const Places& places, const doubl
 /// The sign of the Jacobian all over the cell, exactly.
 enum class JacobianSign : std::int8_t {
     negative = -1,
-    unknown = 0,  ///< it has one sign at the corners, but not all Bernstein coefficients have it
+    unknown = 0,  ///< many bisections did not tell (bernstein.hpp): it touches zero, or nearly so
     positive = 1,
-    changes = 2,  ///< it is zero at a corner, or has both signs at corners
+    changes = 2,  ///< it is zero, or has both signs, at corners of the cell or of a part that was bisected
 };
 JacobianSign jacobian_sign(const Reference& reference, const Places& places);
 /// Of simplices alone.
@@ -50,25 +50,6 @@ inline int proved_orientation(const Reference& reference, const Places& places) 
     const auto sign = static_cast<int>(jacobian_sign(reference, places));
     return sign == 2 ? 0 : sign;
 }
-
-/// By the signs of coefficients, and of those that are values at corners.
-class CoefficientSigns {
-public:
-    void add(int sign, bool at_corner) {
-        min_ = std::min(min_, sign);
-        max_ = std::max(max_, sign);
-        if (!at_corner) return;
-        corner_min_ = std::min(corner_min_, sign);
-        corner_max_ = std::max(corner_max_, sign);
-    }
-    JacobianSign sign() const {
-        if (min_ == max_ && min_ != 0) return static_cast<JacobianSign>(min_);
-        return corner_min_ == corner_max_ && corner_min_ != 0 ? JacobianSign::unknown : JacobianSign::changes;
-    }
-
-private:
-    int min_ = 1, max_ = -1, corner_min_ = 1, corner_max_ = -1;
-};
 
 /// Where a point is in a simplex of order 2 to 4.
 struct InSimplex {

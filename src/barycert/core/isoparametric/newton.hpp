@@ -49,6 +49,34 @@ inline Rational exact_place(const Places& places, std::size_t node, std::size_t 
     return places.other[node] == nullptr ? x : Rational((x + Rational(places.other[node][axis])) / 2);
 }
 
+/// Where nodes are, times one power of two: whole numbers.
+class WholePlaces {
+public:
+    WholePlaces(const Reference& of, const Places& places) : places_(places), lowest_(2000) {
+        for (std::size_t i = 0; i < of.nodes; ++i) {
+            for (std::size_t k = 0; k < of.dimension(); ++k) {
+                lowest_ = std::min(lowest_, last_bit(places.at[i][k]));
+                if (places.other[i] != nullptr) lowest_ = std::min(lowest_, last_bit(places.other[i][k]));
+            }
+        }
+    }
+    Whole operator()(std::size_t node, std::size_t axis) const {
+        const Whole x = whole(places_.at[node][axis]);
+        return x + (places_.other[node] == nullptr ? x : whole(places_.other[node][axis]));
+    }
+
+private:
+    static int last_bit(double x) { return x == 0 ? 2000 : exponent_above(std::abs(x)) - 53; }
+    Whole whole(double x) const {
+        if (x == 0) return 0;
+        const int last = last_bit(x);
+        return Whole(static_cast<std::int64_t>(std::ldexp(x, -last))) << static_cast<unsigned>(last - lowest_);
+    }
+
+    const Places& places_;
+    int lowest_;  ///< exponent of the last bit of any
+};
+
 /// 1 / n.
 template <class T>
 Ball<T> inverse_of(int n) {
@@ -95,22 +123,45 @@ bool may_be_inside(const Reference& of, const std::array<Ball<T>, 3>& x) {
 }
 
 /// A point beside the nodes of a cell, all of them divided by one power of two.
+///
+/// The map of a pyramid takes all of r and s to the apex, near which its Jacobian says nothing of them. But with
+/// w = 1 - t, X - apex is w times what r and s say: so r and s are those of a smaller pyramid with the same apex, whose
+/// base is 2^-shrink times as far from it, and w is 2^-shrink times its own.
 class Inverse {
 public:
-    Inverse(const Reference& reference, const Places& places, const double* point)
+    /// `shrink`: for a point near the apex of a pyramid x is that of a smaller one. Then functions() and
+    /// may_be_inside() know the cell's own.
+    Inverse(const Reference& reference, const Places& places, const double* point, bool shrink = false)
         : of_(reference), d_(reference.dimension()) {
         double most = largest(of_, places);
         for (std::size_t k = 0; k < d_; ++k) most = std::max(most, std::abs(point[k]));
         const int down = exponent_above(most) + 1;  // differences do not overflow
+        const auto difference = [&](const double* a, const double* b, std::size_t k) {
+            return TwoDoubles::sum(std::ldexp(a[k], -down), -std::ldexp(b[k], -down));
+        };
+        if (shrink && of_.element == Element::pyramid) {
+            double base = 0, own = 0;
+            for (std::size_t k = 0; k < d_; ++k) {
+                own = std::max(own, std::abs(difference(point, places.at[4], k).high));
+                for (std::size_t i = 0; i < 4; ++i)
+                    base = std::max(base, std::abs(difference(places.at[i], places.at[4], k).high));
+            }
+            // The base stays farther away than the point, but in the flattest pyramids; 2^-954 is left of the last
+            // bits.
+            if (own > 0 && base > 64 * own) shrink_ = std::min(exponent_above(base) - exponent_above(own) - 2, 900);
+        }
+        amid_ = shrink_ != 0;
         most = 0;
         for (std::size_t i = 0; i < of_.nodes; ++i) {
             for (std::size_t k = 0; k < d_; ++k) {
-                const auto from_point = [&](const double* at) {
-                    return TwoDoubles::sum(std::ldexp(at[k], -down), -std::ldexp(point[k], -down));
-                };
-                TwoDoubles q = from_point(places.at[i]);
+                TwoDoubles q = difference(places.at[i], point, k);
+                if (shrink_ != 0 && i < 4) {
+                    const TwoDoubles edge = difference(places.at[i], places.at[4], k);
+                    q = TwoDoubles(std::ldexp(edge.high, -shrink_), std::ldexp(edge.low, -shrink_)) +
+                        difference(places.at[4], point, k);
+                }
                 if (places.other[i] != nullptr) {
-                    const TwoDoubles sum = q + from_point(places.other[i]);
+                    const TwoDoubles sum = q + difference(places.other[i], point, k);
                     q = {sum.high / 2, sum.low / 2};
                     amid_ = true;
                 }
@@ -208,7 +259,23 @@ public:
         return true;
     }
 
-    /// x as rational numbers, if they can be told.
+    /// The shape functions of the cell at x as enclose() has it.
+    template <class T>
+    void functions(const std::array<Ball<T>, 3>& x, std::array<Ball<T>, max_nodes>& n) const {
+        if (shrink_ == 0) return shape_functions(of_, x, n, nullptr);
+        const Ball<T> w = from_apex(x);
+        shape_functions(of_, {x[0], x[1], Ball<T>(0)}, n, nullptr);
+        for (std::size_t i = 0; i < 4; ++i) n[i] = n[i] * w;
+        n[4] = Ball<T>(1) - w;
+    }
+    /// Whether x, as enclose() has it, may be in the reference cell.
+    template <class T>
+    bool may_be_inside(const std::array<Ball<T>, 3>& x) const {
+        if (shrink_ == 0) return isoparametric::may_be_inside(of_, x);
+        return isoparametric::may_be_inside(of_, std::array<Ball<T>, 3>{x[0], x[1], Ball<T>(1) - from_apex(x)});
+    }
+
+    /// x of the cell as rational numbers, if they can be told.
     std::optional<Vector<Rational>> exactly(const Vector<double>& about) const {
         Vector<Rational> x{};
         if (affine(x)) return x;
@@ -217,6 +284,7 @@ public:
             if (std::abs(near - about[k]) > 0x1p-60) return std::nullopt;
             x[k] = Rational(near);
         }
+        if (shrink_ != 0) x[2] = 1 - Rational(1 - x[2]) * Rational(std::ldexp(1.0, -shrink_));
         return is_at(x) ? std::optional(x) : std::nullopt;
     }
 
@@ -231,12 +299,22 @@ public:
             return {q, off};
         } else {
             const T from = T(places_.at[node][axis]) - T(point_[axis]);
+            if (shrink_ != 0 && node < 4) {
+                const T apex(places_.at[4][axis]);
+                const T edge = ldexp(T(T(places_.at[node][axis]) - apex), -shrink_);
+                return Ball<T>(ldexp(T(edge + (apex - T(point_[axis]))), shift_));
+            }
             if (places_.other[node] == nullptr) return Ball<T>(ldexp(from, shift_));
             return Ball<T>(ldexp(T(from + (T(places_.other[node][axis]) - T(point_[axis]))), shift_ - 1));
         }
     }
 
 private:
+    template <class T>
+    Ball<T> from_apex(const std::array<Ball<T>, 3>& x) const {
+        return (Ball<T>(1) - x[2]) * Ball<T>(T(std::ldexp(1.0, -shrink_)));
+    }
+
     bool newton(Vector<double>& x) {
         Vector<double> q{};
         double last = std::numeric_limits<double>::infinity();
@@ -271,7 +349,7 @@ private:
 
     bool near_cell(const Vector<double>& x) const {
         constexpr double off = 0x1p-20;
-        return may_be_inside<double>(of_, {Ball<double>(x[0], off), Ball<double>(x[1], off), Ball<double>(x[2], off)});
+        return may_be_inside<double>({Ball<double>(x[0], off), Ball<double>(x[1], off), Ball<double>(x[2], off)});
     }
 
     /// Sets inverse_.
@@ -369,8 +447,8 @@ private:
 
     const Reference& of_;
     std::size_t d_;
-    int shift_ = 0;
-    bool amid_ = false;  ///< some nodes are amid two places
+    int shift_ = 0, shrink_ = 0;
+    bool amid_ = false;  ///< some nodes are amid two places, or moved towards the apex
     Places places_{};
     const double* point_ = nullptr;
     std::array<Vector<TwoDoubles>, max_nodes> offset_;  ///< of nodes from the point, below 1

@@ -1,8 +1,7 @@
 // Curved simplices: their nodes, Bernstein coefficients, and where points are in them.
-#include <functional>
-#include <map>
 #include <tuple>
 
+#include "barycert/core/isoparametric/bernstein.hpp"
 #include "barycert/core/isoparametric/newton.hpp"
 
 namespace barycert::core::isoparametric {
@@ -159,10 +158,10 @@ std::vector<Vector<N>> control_points(const Simplex& s, const Place& place) {
     return points;
 }
 
-/// The Jacobian is a sum over a coefficient of each derivative; those whose indices have one sum make a coefficient of
-/// its own, as positive multiples. Nothing if the sign of one is not known.
-template <class N, class Place, class SignOf>
-std::optional<JacobianSign> common_sign(const Simplex& s, const Place& place, const SignOf& sign_of) {
+/// Bernstein coefficients of the Jacobian, times one positive number. It is a sum over a coefficient of each
+/// derivative; those whose indices have one sum make a coefficient of its own.
+template <class N, class Place>
+std::vector<N> jacobian_coefficients(const Simplex& s, const Place& place) {
     const std::vector<Vector<N>> points = control_points<N>(s, place);
     const std::size_t d = s.reference.dimension(), m = s.slopes.size();
     std::array<std::vector<Vector<N>>, 3> v;
@@ -173,33 +172,28 @@ std::optional<JacobianSign> common_sign(const Simplex& s, const Place& place, co
         }
     }
     if (d == 2) v[2].push_back({N(0), N(0), N(1)});
-    std::map<Index, N> sums;
+    const BernsteinBasis& basis = jacobian_basis(s.reference);
+    std::vector<N> sums(basis.size(), N(0));
     for (std::size_t a = 0; a < m; ++a) {
         for (std::size_t b = 0; b < m; ++b) {
             const Vector<N> cross = base::cross(v[0][a], v[1][b]);
             for (std::size_t c = 0; c < v[2].size(); ++c) {
                 const Index &i = s.slopes[a].index, &j = s.slopes[b].index;
-                Index sum = i;
+                BernsteinBasis::Index sum{};
                 int weight = multinomial(i) * multinomial(j);
-                for (std::size_t k = 0; k < 4; ++k) sum[k] = static_cast<std::uint8_t>(sum[k] + j[k]);
+                for (std::size_t k = 0; k < 4; ++k) sum[k] = static_cast<std::uint8_t>(i[k] + j[k]);
                 if (d == 3) {
                     const Index& l = s.slopes[c].index;
                     weight *= multinomial(l);
                     for (std::size_t k = 0; k < 4; ++k) sum[k] = static_cast<std::uint8_t>(sum[k] + l[k]);
                 }
-                const N own = N(weight) * base::dot(cross, v[2][c]);
-                const auto [at, first] = sums.try_emplace(sum, own);
-                if (!first) at->second = at->second + own;
+                N& own = sums[basis.place(sum)];
+                own = own + N(weight) * base::dot(cross, v[2][c]);
             }
         }
     }
-    CoefficientSigns signs;
-    for (const auto& [index, sum] : sums) {
-        const std::optional<int> own = std::invoke(sign_of, sum);
-        if (!own) return std::nullopt;
-        signs.add(*own, std::ranges::max(index) == sum_of(index));
-    }
-    return signs.sign();
+    for (std::size_t i = 0; i < sums.size(); ++i) sums[i] = sums[i] * N(basis.factorials(i));
+    return sums;
 }
 
 double middle(const Places& places, std::size_t node, std::size_t k, double scale) {
@@ -377,15 +371,15 @@ const Reference* simplex_reference(int dimension, std::size_t nodes) {
 JacobianSign simplex_jacobian_sign(const Reference& of, const Places& places) {
     const Simplex& s = simplex_of(of);
     const double scale = scale_of(of, places);
+    using B = Ball<double>;
     const auto near = [&](std::size_t node, std::size_t k) {
-        using B = Ball<double>;
         if (places.other[node] == nullptr) return B(places.at[node][k] * scale);
         return B(places.at[node][k] * scale / 2) + B(places.other[node][k] * scale / 2);
     };
-    if (const auto sign = common_sign<Ball<double>>(s, near, &Ball<double>::sign)) return *sign;
-    if (of.order > 2) return JacobianSign::unknown;  // 1000 determinants and more in rational numbers
-    const auto exact = [&](std::size_t node, std::size_t k) { return exact_place(places, node, k); };
-    return *common_sign<Rational>(s, exact, [](const Rational& x) { return std::optional(x.sign()); });
+    if (const auto sign = sign_by_bisection(of, jacobian_coefficients<B>(s, near), &B::sign)) return *sign;
+    const WholePlaces place(of, places);
+    return *sign_by_bisection(of, jacobian_coefficients<Whole>(s, place),
+                              [](const Whole& x) { return std::optional(x.sign()); });
 }
 
 std::array<double, 6> hull_box(const Reference& of, const Places& places) {
