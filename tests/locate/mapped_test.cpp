@@ -358,6 +358,38 @@ TEST(MappedCells, NodesOfCurvedCellsHaveTheirOwnValues) {
     }
 }
 
+// Corners at random: each middle is rounded, and many on the boundary to the outside.
+TEST(MappedCells, NodesOffByRoundingAreInCellsThatHaveThem) {
+    std::mt19937 random(3);
+    for (const int d : {2, 3}) {
+        Mesh mesh = testing::straight_ball(d);
+        const auto axes = static_cast<std::size_t>(d), mids = mesh::edges_of(d).size();
+        mesh.points.resize(axes * (2 * axes + 1));
+        for (double& x : mesh.points) x += std::uniform_real_distribution(-0.1, 0.1)(random);
+        mesh.mid_nodes.clear();
+        mesh = with_field(testing::second_order(std::move(mesh)));
+        ASSERT_GT(curved_cells(mesh).rounded_cells, 0U);
+        for (const Curved curved : {Curved::isoparametric, Curved::exact}) {
+            const Sampler sampler = Sampler::build(mesh, {}, {.curved = curved}).value();
+            EXPECT_EQ(sampler.locator().has_curved_cells(), curved == Curved::exact);
+            const Table rows = sampler.sample(mesh.points).value();
+            for (std::size_t i = 0; i < mesh.point_count(); ++i) {
+                // Straight sides leave nodes that were rounded to the outside where they are.
+                if (curved == Curved::isoparametric && rows.cells[i] < 0) continue;
+                ASSERT_GE(rows.cells[i], 0) << "node " << i << ", " << d << 'D';
+                const auto cell = static_cast<std::size_t>(rows.cells[i]);
+                const auto node = static_cast<Index>(i);
+                const auto corners = mesh.corners_of(cell);
+                const auto own = std::span(mesh.mid_nodes).subspan(mids * cell, mids);
+                EXPECT_EQ(std::ranges::count(corners, node) + std::ranges::count(own, node), 1) << i;
+                if (curved == Curved::exact) {
+                    EXPECT_EQ(rows.values[i], mesh.point_fields[0].data[i]) << i;
+                }
+            }
+        }
+    }
+}
+
 // A node amid a curved edge may lie inside the straight simplex of one of them.
 TEST(MappedCells, AllCellsOfACurvedEdgeHoldItsNode) {
     for (const int d : {2, 3}) {
@@ -397,7 +429,7 @@ TEST(MappedCells, L1V1CurvedSimplices) {
         };
         std::size_t inside = 0, outside_straight = 0;
         const Table straight =
-            Locator::build(mesh, {.straight_sides = true, .progress = {}}).value().locate(points).value();
+            Locator::build(mesh, {.curved = Curved::straight, .progress = {}}).value().locate(points).value();
         for (std::size_t i = 0; i < rows.row_count(); ++i) {
             Index owner = -1;
             Real value = 0;
@@ -431,6 +463,53 @@ TEST(MappedCells, L1V1CurvedSimplices) {
         }
         EXPECT_GT(inside, 300U);
         EXPECT_GT(outside_straight, 20U);
+    }
+}
+
+/// A hexahedron under two wedges: its upper side is z = bend x y, theirs are the planes through its nodes on each side
+/// of x = y.
+Mesh hexahedron_under_wedges(double bend) {
+    Mesh mesh;
+    mesh.points = {0, 0, 0,  1, 0, 0,  1, 1, bend, 0, 1, 0, 0, 0, -2, 1, 0, -2,
+                   1, 1, -2, 0, 1, -2, 0, 0, 2,    1, 0, 2, 1, 1, 2,  0, 1, 2};
+    mesh.shapes.types = {12, 13, 13};
+    mesh.shapes.ends = {8, 14, 20};
+    mesh.shapes.nodes = {4, 5, 6, 7, 0, 1, 2, 3, 0, 1, 2, 8, 9, 10, 0, 2, 3, 8, 10, 11};
+    EXPECT_FALSE(mesh::cut_into_simplices(mesh));
+    return mesh;
+}
+
+// Their owners are told by hand. All coordinates are fractions of few bits.
+TEST(MappedCells, L1WhereSidesOfNeighboursDiffer) {
+    std::mt19937 random(7);
+    const auto part = [&](unsigned of) { return static_cast<double>(random() % (of + 1)) / of; };
+    for (const double bend : {-0.5, 0.5}) {
+        const Mesh mesh = hexahedron_under_wedges(bend);
+        const Locator locator = Locator::build(mesh, {.interpolation = CellInterpolation::multilinear}).value();
+        EXPECT_TRUE(locator.certified());
+        const Notes notes = notes_of_maps(locator, CellInterpolation::multilinear, "m");
+        ASSERT_EQ(notes.size(), 1U);
+        EXPECT_NE(notes[0].text.find("1 side that is not flat has"), std::string::npos);
+        EXPECT_NE(notes[0].text.find("first between cells 0 and 1"), std::string::npos);
+        std::vector<double> points;
+        std::vector<Index> expected;
+        std::size_t outside = 0, both = 0;
+        for (int i = 0; i < 20000; ++i) {
+            const double x = part(64), y = part(64), z = i % 4 == 0 ? 4 * part(64) - 2 : bend * part(64);
+            points.insert(points.end(), {x, y, z});
+            const bool hexahedron = z <= bend * x * y, wedge = z >= bend * std::min(x, y);
+            expected.push_back(hexahedron ? 0 : !wedge ? -1 : y <= x ? 1 : 2);
+            outside += !hexahedron && !wedge ? 1 : 0;
+            both += hexahedron && wedge && z < bend * x * y ? 1 : 0;
+        }
+        EXPECT_GT(bend < 0 ? both : outside, 1000U);
+        const Table found = locator.locate(points).value();
+        for (std::size_t i = 0; i < expected.size(); ++i)
+            ASSERT_EQ(mesh.cell_number(found.cells[i]) < 0
+                          ? -1
+                          : mesh::whole_of_parts(mesh)[static_cast<std::size_t>(found.cells[i])],
+                      expected[i])
+                << points[3 * i] << ' ' << points[3 * i + 1] << ' ' << points[3 * i + 2];
     }
 }
 

@@ -5,6 +5,7 @@
 #include "barycert/mesh/cell_maps.hpp"
 #include "barycert/mesh/consistency.hpp"
 #include "barycert/mesh/pulling.hpp"
+#include "barycert/mesh/warped_sides.hpp"
 
 namespace barycert::check {
 namespace {
@@ -110,6 +111,18 @@ void compare_facets(const Checked& c, const mesh::CellMaps& maps, MapReport& rep
         });
 }
 
+void compare_sides(const Checked& c, const std::vector<std::uint8_t>& products, MapReport& report) {
+    const std::vector<Mesh::Index>& parts = c.mesh.shapes.parts;
+    const mesh::SidesOfCells sides = mesh::compare_sides(c.mesh, mesh::warped_sides(c.mesh, products));
+    report.warped_sides = sides.warped;
+    report.split_sides = sides.split.size();
+    for (const mesh::SplitSide& side : sides.split) {
+        if (report.split_at_sides.size() == c.options.examples) break;
+        report.split_at_sides.push_back(
+            {parts[static_cast<std::size_t>(side.whole)], parts[static_cast<std::size_t>(side.beyond)]});
+    }
+}
+
 }  // namespace
 
 std::optional<MapReport> check_maps(const Checked& c) {
@@ -117,10 +130,10 @@ std::optional<MapReport> check_maps(const Checked& c) {
         mesh::inconsistency_of_cells(c.mesh, mesh::FieldValues::any) != nullptr)
         return std::nullopt;
     using iso::JacobianSign;
-    const mesh::CellMaps maps(c.mesh, true, true);
+    const mesh::CellMaps maps(c.mesh, true, c.options.curved == Curved::exact ? Curved::exact : Curved::isoparametric);
     const std::vector<Mesh::Index>& parts = c.mesh.shapes.parts;
     std::vector<std::int8_t> signs(c.mesh.whole_count());
-    std::vector<std::uint8_t> mapped(signs.size());
+    std::vector<std::uint8_t> mapped(signs.size()), products(signs.size());
     base::parallel_for_each(signs.size(), 256, [&](std::size_t whole) {
         const auto* const reference = maps.reference(whole);
         if (reference == nullptr) return;
@@ -143,9 +156,11 @@ std::optional<MapReport> check_maps(const Checked& c) {
            : sign == JacobianSign::changes  ? report.changing
                                             : report.unknown);
         const bool good = sign == JacobianSign::positive || sign == JacobianSign::negative;
+        products[whole] = good && !maps.reference(whole)->is_simplex() ? 1 : 0;
         if (!good && report.examples.size() < c.options.examples)
             report.examples.push_back(static_cast<Mesh::Index>(first));
     }
+    if (std::ranges::find(products, 1) != products.end()) compare_sides(c, products, report);
     if (report.cells != 0 && c.neighbours.size() == c.mesh.cells.size()) compare_facets(c, maps, report);
     return report.cells == 0 ? std::nullopt : std::optional(report);
 }

@@ -30,9 +30,9 @@ Result<Locator> Locator::build(const Mesh& mesh, const BuildOptions& options) {
         stage("ordering cells");
         data->index = locate::make_cell_index(mesh);
         const bool products = options.interpolation == CellInterpolation::multilinear;
-        if (data->grid == nullptr &&
-            (products || (!options.straight_sides && (!mesh.mid_nodes.empty() || !mesh.shapes.types.empty()))))
-            data->mapped = locate::MappedCells::make(mesh, data->index, products, !options.straight_sides);
+        if (data->grid == nullptr && (products || (options.curved != Curved::straight &&
+                                                   (!mesh.mid_nodes.empty() || !mesh.shapes.types.empty()))))
+            data->mapped = locate::MappedCells::make(mesh, data->index, products, options.curved);
         if (!later) data->prove(stage);
     });
     return Locator(std::move(data));
@@ -95,16 +95,40 @@ std::uint64_t Locator::unmapped_cells() const {
     return data_->mapped ? data_->mapped->unproved() : 0;
 }
 
+namespace {
+
+std::string words_of_split_sides(const Locator& locator) {
+    const auto& mapped = locate::LocatorData::of(locator).mapped;
+    if (!mapped || mapped->split_sides().empty()) return {};
+    const auto number = [&](Mesh::Index whole) {
+        const Mesh& mesh = locator.mesh();
+        return std::to_string(mesh.cell_number(mesh.shapes.parts[static_cast<std::size_t>(whole)]));
+    };
+    const mesh::SplitSide& first = mapped->split_sides().front();
+    const std::size_t count = mapped->split_sides().size();
+    return "the multilinear cells do not partition the domain: " +
+           (count == 1 ? "1 side that is not flat has" : std::to_string(count) + " sides that are not flat have") +
+           " another surface in the cell beyond, where cells overlap or leave gaps; first between cells " +
+           number(first.whole) + " and " + number(first.beyond);
+}
+
+}  // namespace
+
 Notes notes_of_maps(const Locator& locator, CellInterpolation asked, const std::string& file) {
     const std::uint64_t unmapped = locator.unmapped_cells();
+    const std::string split = words_of_split_sides(locator);
     if (asked == CellInterpolation::multilinear && locator.interpolation() == CellInterpolation::linear)
         return {{Note::Kind::guessed, "no cell is a hexahedron or the like: multilinear interpolation is linear here",
                  file, true}};
-    if (unmapped == 0) return {};
-    return {{Note::Kind::guessed,
+    Notes notes;
+    if (unmapped != 0)
+        notes.push_back(
+            {Note::Kind::guessed,
              std::to_string(unmapped) +
                  " cells are taken as straight or by their parts: it is not proved that their maps are injective",
-             file, true}};
+             file, true});
+    if (!split.empty()) notes.push_back({Note::Kind::guessed, split, file, true});
+    return notes;
 }
 
 std::size_t Locator::bytes() const {

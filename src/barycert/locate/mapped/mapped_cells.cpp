@@ -9,16 +9,16 @@ namespace barycert::locate {
 
 namespace iso = core::isoparametric;
 
-std::unique_ptr<MappedCells> MappedCells::make(const Mesh& mesh, const CellIndex& index, bool products, bool curves) {
-    auto cells = std::unique_ptr<MappedCells>(new MappedCells(mesh, products, curves));
+std::unique_ptr<MappedCells> MappedCells::make(const Mesh& mesh, const CellIndex& index, bool products, Curved curved) {
+    auto cells = std::unique_ptr<MappedCells>(new MappedCells(mesh, products, curved));
     const bool none = std::ranges::all_of(cells->sign_, [](std::int8_t s) { return s == 0; });
     if (none && cells->unproved_ == 0) return nullptr;
     if (cells->products_) cells->arrange(index);
     return cells;
 }
 
-MappedCells::MappedCells(const Mesh& mesh, bool products, bool curves)
-    : mesh_(mesh), maps_(mesh, products, curves), products_(products), curves_(curves) {
+MappedCells::MappedCells(const Mesh& mesh, bool products, Curved curved)
+    : mesh_(mesh), maps_(mesh, products, curved), products_(products) {
     if (has_shapes()) whole_ = mesh::whole_of_parts(mesh);
     sign_.assign(mesh.whole_count(), 0);
     std::atomic<std::uint64_t> unproved = 0, of_products = 0;

@@ -26,6 +26,7 @@
 #include "barycert/locate/lazy.hpp"
 #include "barycert/locator.hpp"
 #include "barycert/mesh/cell_maps.hpp"
+#include "barycert/mesh/warped_sides.hpp"
 #include "barycert/predicates.hpp"
 
 namespace barycert::locate {
@@ -35,12 +36,16 @@ public:
     /// Sets all cells that hold a point, as straight simplices or by their parts.
     using AllInParts = std::function<void(std::vector<Location>&)>;
 
-    /// nullptr if no cell has a map, and no node is off a middle. `products`: those of Mesh::shapes. `curves`:
+    /// nullptr if no cell has a map, and no node is off a middle. `products`: those of Mesh::shapes. `curved`: of
     /// simplices of a higher order. On the threads of the calling arena.
-    static std::unique_ptr<MappedCells> make(const Mesh& mesh, const CellIndex& index, bool products, bool curves);
+    static std::unique_ptr<MappedCells> make(const Mesh& mesh, const CellIndex& index, bool products, Curved curved);
 
     /// Cells that have no map, though others of their types have: it is not proved that it would be injective.
     std::uint64_t unproved() const { return unproved_; }
+    /// Warped sides that have another surface in the cell beyond: cells overlap there, or leave a gap.
+    const std::vector<mesh::SplitSide>& split_sides() const { return split_sides_; }
+    /// Whether a point may be in two cells, or in none, at such a side.
+    bool is_near_split(const double* point) const;
     bool has_products() const { return products_; }
     bool has_curves() const { return curves_; }
     std::size_t bytes() const;
@@ -110,7 +115,7 @@ private:
         bool outside;
         Feature feature;
     };
-    MappedCells(const Mesh& mesh, bool products, bool curves);
+    MappedCells(const Mesh& mesh, bool products, Curved curved);
     bool has_shapes() const { return !mesh_.shapes.types.empty(); }
     std::size_t whole_count() const { return sign_.size(); }
     std::size_t whole(Mesh::Index cell) const {
@@ -149,7 +154,7 @@ private:
 
     const Mesh& mesh_;
     mesh::CellMaps maps_;
-    bool products_, curves_;
+    bool products_, curves_ = false;
     std::vector<Mesh::Index> whole_;  ///< shape of each cell
     std::vector<std::int8_t> sign_;   ///< of each Jacobian; 0: no map
     // Of cells on lanes but for simplices, in the order of space, places of their nodes in the index; and of each place
@@ -162,6 +167,8 @@ private:
     std::vector<std::uint8_t> lane_part_;  ///< which of its cell's parts is at that place
     std::vector<Warped> warped_;           ///< products with such sides
     std::unique_ptr<index::BoxTree> tree_;
+    std::vector<mesh::SplitSide> split_sides_;
+    std::unique_ptr<index::BoxTree> split_tree_;
     std::vector<Mesh::Index> curved_;  ///< wholes
     std::unique_ptr<index::BoxTree> curved_tree_;
     Lazy<NodeTable> nodes_;
@@ -184,6 +191,7 @@ public:
     }
     /// False, and nothing done, for what is no such case. `settled`: that is its owner, not only that of a part.
     bool push(const Location& at, const PointRecord& point, Place place, bool settled) {
+        if (!settled && cells_.is_near_split(point.at.data())) return false;
         for (Batch& batch : batches_) {
             batch.settled[batch.count] = settled;
             // On a side, or what would be one if the cell were straight.

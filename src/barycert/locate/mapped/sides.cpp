@@ -4,6 +4,7 @@
 #include "barycert/core/isoparametric/ball.hpp"
 #include "barycert/locate/mapped/mapped_cells.hpp"
 #include "barycert/mesh/pulling.hpp"
+#include "barycert/mesh/warped_sides.hpp"
 
 namespace barycert::locate {
 
@@ -70,14 +71,11 @@ void MappedCells::for_sides(std::size_t shape, Use use) const {
 
 void MappedCells::find_sides() {
     if (mesh_.dimension == 2) return;
-    std::vector<std::uint8_t> warped(whole_count(), 0);
-    base::parallel_for_each(whole_count(), 1024, [&](std::size_t shape) {
-        if (sign_[shape] == 0 || maps_.reference(shape)->is_simplex()) return;
-        for_sides(shape, [&](const std::array<const double*, 4>& n, unsigned bit) {
-            if (orient3d(n[0], n[1], n[2], n[3]) != Sign::zero)
-                warped[shape] = static_cast<std::uint8_t>(warped[shape] | bit);
-        });
-    });
+    std::vector<std::uint8_t> products(whole_count(), 0);
+    for (std::size_t shape = 0; shape < whole_count(); ++shape)
+        products[shape] = sign_[shape] != 0 && !maps_.reference(shape)->is_simplex() ? 1 : 0;
+    const std::vector<std::uint8_t> warped = mesh::warped_sides(mesh_, products);
+    split_sides_ = mesh::compare_sides(mesh_, warped).split;
     for (std::size_t shape = 0; shape < whole_count(); ++shape) {
         if (warped[shape] != 0) warped_.push_back({static_cast<Mesh::Index>(shape), warped[shape]});
     }
@@ -90,6 +88,24 @@ void MappedCells::find_sides() {
         boxes[i] = index::box_of(3, corners.data(), static_cast<int>(nodes.count));
     });
     tree_ = std::make_unique<index::BoxTree>(std::move(boxes));
+    if (split_sides_.empty()) return;
+    boxes.resize(split_sides_.size());
+    std::ranges::transform(split_sides_, boxes.begin(), [&](const mesh::SplitSide& side) {
+        std::array<const double*, 4> nodes{};
+        std::ranges::transform(side.ring, nodes.begin(), [&](Mesh::Index node) { return mesh_.point(node); });
+        return index::box_of(3, nodes.data(), 4);
+    });
+    split_tree_ = std::make_unique<index::BoxTree>(std::move(boxes));
+}
+
+bool MappedCells::is_near_split(const double* point) const {
+    bool near = false;
+    if (split_tree_ != nullptr)
+        split_tree_->for_each(index::box_of(3, &point, 1), [&](std::uint32_t) {
+            near = true;
+            return false;
+        });
+    return near;
 }
 
 std::vector<MappedCells::AtSides> MappedCells::at_sides(const double* point) const {

@@ -181,6 +181,18 @@ std::string curved_facets_text(const CheckReport& r) {
     return text;
 }
 
+std::string warped_sides_text(const CheckReport& r) {
+    const MapReport& m = *r.maps;
+    std::string text = fmt::format("{} of hexahedra and the like are not flat, ", m.warped_sides);
+    if (m.split_sides == 0) return text + "the same in both cells";
+    text += fmt::format("of which {} are NOT the same in both cells: multilinear cells overlap there or leave a gap",
+                        m.split_sides);
+    if (!m.split_at_sides.empty())
+        text += fmt::format(", first cells {} and {}", r.cell_number(m.split_at_sides[0][0]),
+                            r.cell_number(m.split_at_sides[0][1]));
+    return text;
+}
+
 void tell_whole_mesh(Document& d, const CheckReport& r) {
     const BoundaryReport& b = r.boundary;
     const std::string size = r.dimension == 2 ? "area" : "volume";
@@ -216,6 +228,7 @@ void tell_whole_mesh(Document& d, const CheckReport& r) {
         d.name("maps", text, m.examples.empty() ? Tone::plain : Tone::strong);
         if (m.curved_facets != 0)
             d.name("facets", curved_facets_text(r), m.split_facets == 0 ? Tone::plain : Tone::strong);
+        if (m.warped_sides != 0) d.name("sides", warped_sides_text(r), m.split_sides == 0 ? Tone::plain : Tone::strong);
     }
     if (r.delaunay) d.add(Named{"Delaunay", delaunay_sentences(r)});
     if (r.conformity) d.add(Named{"PLC", conformity_sentences(r, 40)}, For::terminal);

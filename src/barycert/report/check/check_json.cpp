@@ -137,8 +137,9 @@ std::string check_json(const CheckReport& r, const std::string& name, const Envi
         put(j, "maps",
             record(MEMBERS(m, cells, positive, negative, changing, unknown), "examples",
                    list(m.examples, [&](Mesh::Index cell) { return Json(r.cell_number(cell)); }),
-                   MEMBERS(m, curved_facets, split_facets, max_gap), "split",
-                   list(m.split, [&](const auto& cells) { return Json(r.cell_number(cells)); })));
+                   MEMBERS(m, curved_facets, split_facets, max_gap, warped_sides, split_sides), "split",
+                   list(m.split, [&](const auto& cells) { return Json(r.cell_number(cells)); }), "split_at_sides",
+                   list(m.split_at_sides, [&](const auto& cells) { return Json(r.cell_number(cells)); })));
     }
     if (const auto& s = r.surface) {
         for (const char* of_cells : {"orientation", "parts", "boundary", "volume", "measures"}) j.erase(of_cells);
