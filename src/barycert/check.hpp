@@ -361,6 +361,7 @@ struct CheckOptions {
     /// Stop at the first defect that breaks the certificate. The verdict is the same; the report then has that defect,
     /// maybe others, the orientations, and nothing else.
     bool verdict_only = false;
+    Curved curved = Curved::isoparametric;  ///< which cells count as curved: with `exact`, those off by rounding, too
     std::function<void(const char* stage)> progress = {};  ///< called as each stage begins, from the calling thread
 };
 
@@ -386,8 +387,8 @@ struct VolumeReport {
 
 /// Isoparametric maps: of hexahedra, voxels, wedges, pyramids, quadrilaterals and pixels (CellInterpolation), and of
 /// curved simplices of order 2 to 4. One is injective near each point if its Jacobian has one sign. That is told by its
-/// Bernstein coefficients, exactly: all have the sign (proved); it has both signs at corners of the cell, or is zero at
-/// one (changing); neither (unknown).
+/// Bernstein coefficients, exactly, of the cell or of parts of it that are bisected up to 18 times: all have the sign
+/// (proved); it has both signs at corners of the cell or of a part, or is zero at one (changing); neither (unknown).
 struct MapReport {
     std::uint64_t cells = 0, positive = 0, negative = 0, changing = 0, unknown = 0;
     std::vector<Mesh::Index> examples;  ///< the first that are changing or unknown
@@ -397,6 +398,11 @@ struct MapReport {
     std::uint64_t curved_facets = 0, split_facets = 0;
     double max_gap = 0;                             ///< between the two places of such a node
     std::vector<std::array<Mesh::Index, 2>> split;  ///< the cells of the first
+    /// Sides of hexahedra and the like whose four nodes are not in one plane, and those of them that have another
+    /// surface in the cell beyond: two triangles, or the side of a cell without a map. Multilinear cells overlap there,
+    /// or leave a gap.
+    std::uint64_t warped_sides = 0, split_sides = 0;
+    std::vector<std::array<Mesh::Index, 2>> split_at_sides;  ///< the cells of the first
 };
 
 /// A field with values that are NaN or infinite.

@@ -4,7 +4,7 @@
 /// each point its owner, which is the cell of lowest index among all closed cells that contain it, and the feature of
 /// that cell on which it lies.
 ///
-/// Curved cells (BuildOptions::straight_sides) are the images of their reference cells under the isoparametric map, if
+/// Curved cells (BuildOptions::curved) are the images of their reference cells under the isoparametric map, if
 /// it is proved to be injective: then a point is in the cell whose map takes a point of the reference cell there. No
 /// node of such a mesh is outside, also where it is off the middle of a straight edge by rounding. Points on curved
 /// faces are told by enclosures of 250 bits and rational numbers. That curved cells do not overlap is not proved: a
@@ -92,9 +92,10 @@ constexpr std::string_view name(CellInterpolation i) {
 struct BuildOptions {
     Prove prove = Prove::at_once;
     CellInterpolation interpolation = CellInterpolation::linear;
-    /// Second-order cells whose mid-edge nodes are off the middle (CurvedCells), and simplices of order 3 and 4, are
-    /// taken with straight sides; those of order 3 and 4, and of order 2 beside cells of other shapes, are linear then.
-    bool straight_sides = false;
+    /// Of second-order cells whose mid-edge nodes are off the middle (CurvedCells), and simplices of order 3 and 4.
+    /// `straight`: they are taken with straight sides; those of order 3 and 4, and of order 2 beside cells of other
+    /// shapes, are linear then. `refuse` is as isoparametric: see measure_curved().
+    Curved curved = Curved::isoparametric;
     int threads = 0;  ///< 0: as many as the machine has; the index is the same for any number
     std::function<void(const char* stage)> progress = {};  ///< called as each stage begins
 };

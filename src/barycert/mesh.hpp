@@ -110,6 +110,8 @@ struct Mesh {
 
     /// The number in the file, from 0, of each cell, ascending; the parts of a shape have one. Empty: as in the file.
     std::vector<Index> cell_numbers;
+    /// Cells of a higher order that are taken by their corners: their other nodes, and values there, are left out.
+    std::uint64_t by_corners = 0;
     Notes notes;  ///< what its readers left out, converted or guessed
 
     int index_base = 0;  ///< 0 or 1: the base of the file it came from, used again by the writer
@@ -141,37 +143,39 @@ private:
     }
 };
 
-/// Second-order cells whose sides are not straight. Locators and samplers take them as they are (locator.hpp); what
-/// else is said of meshes is exact for straight sides, and for the file's own shapes only up to about `max_deviation`.
+/// Simplices of order 2 to 4 whose sides are not straight. Locators and samplers take them as they are (locator.hpp);
+/// what else is said of meshes is exact for straight sides, and for the file's own shapes only up to about
+/// `max_deviation`.
 ///
-/// The deviation of a mid-edge node is its distance from the middle of the two ends, over their distance. It is
-///   nothing   up to 2^-49 of the largest coordinate of the ends, on each axis: a middle computed in double, or written
-///             with 16 digits (derived in mesh/curved.cpp);
-///   rounding  up to 1e-10 of the edge: what meshers and motions compute. Or up to one unit of the last place of the
-///             mesh's coordinates, and 1/1000 of the edge, if all coordinates are single precision, or have at most 15
-///             decimal digits: the unit is that of the last decimal place in the mesh or, in single precision and with
-///             at least 5 digits, that of the largest coordinate of the ends;
+/// The deviation of a node is its distance from where the straight cell has it, at the middle of an edge of order 2,
+/// over the length of the edge (of order 3 and 4 amid corners: of the longest). Such a node is
+///   straight  exactly there; or there up to rounding: on each axis one of the two numbers nearest to it among doubles,
+///             floats if all coordinates are floats, or decimal numbers of the mesh's digits (mesh/straight_nodes.hpp),
+///             the last two at most 1/1000 of the edge off. Of cells of order 2 in a mesh of one type such nodes are
+///             taken as being there, of others (Mesh::shapes) as the file has them;
 ///   a curve   else.
 struct CurvedCells {
-    std::uint64_t cells = 0;          ///< with a node off the middle by a curve
+    std::uint64_t cells = 0;          ///< with a node off by a curve
     double max_deviation = 0;         ///< of such nodes
-    std::uint64_t rounded_cells = 0;  ///< of the others: with a node off the middle by rounding
+    std::uint64_t rounded_cells = 0;  ///< these or others: with a node off by rounding
     double max_rounded = 0;           ///< of such nodes
+    std::uint64_t by_corners = 0;     ///< Mesh::by_corners
     bool mapped = false;              ///< they are taken as they are
+    bool rounded_too = false;         ///< then nodes off by rounding as well: the mesh has shapes
 };
 
 /// Leaves out cells with an index that is no node, and coordinates that are not finite. `each`, if given: of each cell
-/// a bit for each of its mid-edge nodes that is off the middle by a curve; empty if none is.
-CurvedCells curved_cells(const Mesh& mesh, std::vector<std::uint8_t>* each = nullptr);
+/// a bit for each of its mid-edge nodes that is off the middle by a curve, 1 of cells among shapes; empty if none is.
+/// `exact`: rounding is a curve, too.
+CurvedCells curved_cells(const Mesh& mesh, std::vector<std::uint8_t>* each = nullptr, bool exact = false);
 
-/// In one sentence, empty if all sides are straight.
+/// In a sentence or more, "; " between; empty if all sides are straight, and no cell is taken by its corners.
 std::string message(const CurvedCells& curved);
 
-/// What becomes of curved cells.
-enum class Curved : std::uint8_t { isoparametric, straight, refuse };
+/// What becomes of curved cells. `exact`: as isoparametric, with each node as it is, off by rounding or not.
+enum class Curved : std::uint8_t { isoparametric, straight, refuse, exact };
 
-/// Error, with Curved::refuse: there are curved cells, or simplices of order 2 to 4 among Mesh::shapes. `file` is what
-/// the user calls the mesh.
+/// Error, with Curved::refuse: there are curved cells. `file` is what the user calls the mesh.
 Result<CurvedCells> measure_curved(const Mesh& mesh, const std::string& file, Curved curved);
 
 }  // namespace barycert

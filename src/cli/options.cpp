@@ -86,10 +86,13 @@ void Options::cell_interpolation(CellInterpolation& interpolation) const {
 void Options::curved(Curved& curved) const {
     choice<Curved>(
         "--curved", curved,
-        {{"isoparametric", Curved::isoparametric}, {"straight", Curved::straight}, {"refuse", Curved::refuse}},
+        {{"isoparametric", Curved::isoparametric},
+         {"straight", Curved::straight},
+         {"refuse", Curved::refuse},
+         {"exact", Curved::exact}},
         "Second-order cells with mid-edge nodes off the middle: isoparametric: take them as they are where "
-        "points are located (default), elsewhere their sides as straight, and say so; straight: everywhere; "
-        "refuse: fail");
+        "points are located (default), elsewhere their sides as straight, and say so; exact: likewise, and nodes "
+        "that are off by rounding as well; straight: everywhere; refuse: fail");
 }
 
 void Options::vtk_data(std::optional<VtkData>& data) const {

@@ -3,9 +3,11 @@
 namespace barycert::python {
 
 template <>
-inline constexpr Words<Curved> words<Curved>{
-    "curved=",
-    {{{"isoparametric", Curved::isoparametric}, {"straight", Curved::straight}, {"refuse", Curved::refuse}}}};
+inline constexpr Words<Curved> words<Curved>{"curved=",
+                                             {{{"isoparametric", Curved::isoparametric},
+                                               {"straight", Curved::straight},
+                                               {"refuse", Curved::refuse},
+                                               {"exact", Curved::exact}}}};
 template <>
 inline constexpr Words<CellInterpolation> words<CellInterpolation> = named("interpolation=", CellInterpolation::linear,
                                                                            CellInterpolation::multilinear);
@@ -94,19 +96,19 @@ py::list notes_of(const MeshObject& mesh) {
 }
 
 py::dict curved_of(const MeshObject& object) {
-    const CurvedCells c = measure_curved(object.mesh(), "", Curved::isoparametric).value();
+    const CurvedCells c = curved_cells(object.mesh(), nullptr, object.geometry()->options.curved == Curved::exact);
     return py::dict("cells"_a = c.cells, "max_deviation"_a = c.max_deviation, "rounded_cells"_a = c.rounded_cells,
-                    "max_rounded"_a = c.max_rounded);
+                    "max_rounded"_a = c.max_rounded, "by_corners"_a = c.by_corners);
 }
 
 /// How points are located in cells that are no straight simplices: before anything is. Returns what to warn of: empty
 /// if no cell is curved, or all are taken as they are.
 std::string set_cells(const MeshObject& object, const std::string& file, Curved curved,
                       CellInterpolation interpolation) {
-    object.geometry()->options.straight_sides = curved != Curved::isoparametric;
+    object.geometry()->options.curved = curved;
     object.geometry()->options.interpolation = interpolation;
     const CurvedCells found = measure_curved(object.mesh(), file, curved).value();
-    return found.cells == 0 || curved == Curved::isoparametric ? std::string() : message(found);
+    return found.cells == 0 || curved != Curved::straight ? std::string() : message(found);
 }
 
 /// In the order of pickles. A new member does not compile until it is one of them.
@@ -121,13 +123,13 @@ py::tuple taken(const MeshObject& object) {
     const BuildOptions& how = object.geometry()->options;
     const auto with_arrays = [&]<class... T>(const std::vector<T>&... of) {
         const bool multilinear = how.interpolation == CellInterpolation::multilinear;
-        return py::make_tuple(how.straight_sides, multilinear, owned(std::vector<T>(of))...);
+        return py::make_tuple(static_cast<int>(how.curved), multilinear, owned(std::vector<T>(of))...);
     };
     return std::apply(with_arrays, arrays_of(object.mesh().shapes));
 }
 
 void take(const MeshObject& object, const py::tuple& taken) {
-    object.geometry()->options.straight_sides = taken[0].cast<bool>();
+    object.geometry()->options.curved = static_cast<Curved>(taken[0].cast<int>());
     if (taken[1].cast<bool>()) object.geometry()->options.interpolation = CellInterpolation::multilinear;
     std::size_t next = 2;
     const auto get = [&]<class T>(std::vector<T>& to) {

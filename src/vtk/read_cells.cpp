@@ -251,6 +251,7 @@ std::string read_cells(vtkDataSet& data, ExactIndex& index) {
     if (const auto open = index.cut(ids != nullptr ? integers_of(*ids) : std::vector<std::int64_t>()))
         return "the faces of " + name_of(mesh.cell_number(shapes.parts[*open])) + " do not close";
     index.cells_are_cut = true;
+    mesh.by_corners = index.by_corners;
     note(index, index.by_corners, " cells of a higher order: they are taken by their corners");
     return {};
 }

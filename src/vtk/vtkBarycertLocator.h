@@ -59,8 +59,8 @@ public:
 
     /// Triangles and tetrahedra of a higher order: as their maps have them (the default), with straight sides, or an
     /// error.
-    enum { ISOPARAMETRIC = 0, STRAIGHT = 1, REFUSE = 2 };
-    vtkSetClampMacro(CurvedCells, int, ISOPARAMETRIC, REFUSE);
+    enum { ISOPARAMETRIC = 0, STRAIGHT = 1, REFUSE = 2, EXACT = 3 };
+    vtkSetClampMacro(CurvedCells, int, ISOPARAMETRIC, EXACT);
     vtkGetMacro(CurvedCells, int);
 
     /// Whether points can be located in the data set. Builds the locator if that was not done.

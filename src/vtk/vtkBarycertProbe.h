@@ -86,8 +86,8 @@ public:
     enum { PULLING = 0, MULTILINEAR = 1 };
     vtkSetClampMacro(Interpolation, int, PULLING, MULTILINEAR);
     vtkGetMacro(Interpolation, int);
-    enum { ISOPARAMETRIC = 0, STRAIGHT = 1, REFUSE = 2 };
-    vtkSetClampMacro(CurvedCells, int, ISOPARAMETRIC, REFUSE);
+    enum { ISOPARAMETRIC = 0, STRAIGHT = 1, REFUSE = 2, EXACT = 3 };
+    vtkSetClampMacro(CurvedCells, int, ISOPARAMETRIC, EXACT);
     vtkGetMacro(CurvedCells, int);
 
     /// Whether arrays of real numbers have NaN, not 0, where points are not valid. Off by default.

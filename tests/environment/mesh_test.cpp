@@ -312,7 +312,7 @@ TEST(EveryEnvironment, QuantitiesAndWeights) {
                     for (const Rounding rounding : {Rounding::correct, Rounding::plain}) {
                         const auto sampler =
                             Sampler::build(mesh, {"grad(one)", "|two|", "two.y", "mean(cell)", "|cell|", "|grad(two)|"},
-                                           {.prove = Prove::never, .straight_sides = true});
+                                           {.prove = Prove::never, .curved = Curved::straight});
                         const auto curved =
                             Sampler::build(mesh, {"one", "|two|", "two.y", "cell"}, {.prove = Prove::never});
                         for (const auto* each : {&sampler, &curved}) {

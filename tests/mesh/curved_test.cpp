@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "barycert/check.hpp"
+#include "barycert/mesh/pulling.hpp"
 #include "curved_mesh.hpp"
 
 namespace barycert::testing {
@@ -78,42 +79,122 @@ TEST(Curved, LinearMeshesHaveNone) {
     expect_straight(curved_cells(Mesh()));
 }
 
-TEST(Curved, MiddlesThatWereComputedOrWrittenWith16DigitsAreMiddles) {
+/// The corners alone, with middles computed anew from where they are.
+Mesh with_middles(Mesh mesh) {
+    const auto d = static_cast<std::size_t>(mesh.dimension);
+    mesh.points.resize(d * (2 * d + 1));
+    mesh.mid_nodes.clear();
+    return second_order(std::move(mesh));
+}
+
+void expect_rounded(const CurvedCells& found, double most) {
+    EXPECT_EQ(found.cells, 0U);
+    EXPECT_EQ(found.max_deviation, 0);
+    EXPECT_GT(found.rounded_cells, 0U);
+    EXPECT_GT(found.max_rounded, 0);
+    EXPECT_LT(found.max_rounded, most);
+    EXPECT_NE(message(found).find("by rounding; sides were taken as straight"), std::string::npos);
+}
+
+TEST(Curved, MiddlesThatWereComputedAreMiddlesAndCounted) {
     for (const int d : {2, 3}) {
         for (const double unit : {1.0, 1e-3, 1e6, 1e300, 1e-300}) {
-            const Mesh mesh = turned(straight_ball(d), unit);
-            expect_straight(curved_cells(mesh));
-            expect_straight(curved_cells(printed(mesh, "%.16g")));
+            const Mesh mesh = with_middles(turned(straight_ball(d), unit));
+            expect_rounded(curved_cells(mesh), 2e-16);
+            // Not so where each node is to be as it is.
+            const CurvedCells exact = curved_cells(mesh, nullptr, true);
+            EXPECT_EQ(exact.cells, curved_cells(mesh).rounded_cells);
+            EXPECT_EQ(exact.max_deviation, curved_cells(mesh).max_rounded);
+            EXPECT_EQ(exact.rounded_cells, 0U);
         }
     }
 }
 
-TEST(Curved, WhatTheDigitsOfCoordinatesExplainIsRounding) {
+TEST(Curved, MiddlesThatWereRoundedToTheDigitsOfTheirTextAreMiddles) {
+    for (const int d : {2, 3}) {
+        for (const char* const format : {"%.6g", "%.6f", "%.9g", "%.12e"})
+            expect_rounded(curved_cells(printed(with_middles(printed(turned(straight_ball(d)), format)), format)),
+                           1e-5);
+        Mesh single = turned(straight_ball(d));
+        for (double& x : single.points) x = static_cast<float>(x);
+        single = with_middles(single);
+        for (double& x : single.points) x = static_cast<float>(x);
+        expect_rounded(curved_cells(single), 1e-6);
+    }
+}
+
+// Where corners were rounded after the middles were computed, nodes are up to a unit off: they count as they are.
+TEST(Curved, EverythingElseIsACurve) {
     for (const int d : {2, 3}) {
         const Mesh mesh = turned(straight_ball(d));
-        for (const char* const format : {"%.6g", "%.6f", "%.9g", "%.12e"}) {
-            const CurvedCells found = curved_cells(printed(mesh, format));
-            EXPECT_EQ(found.cells, 0U) << format;
-            EXPECT_GT(found.rounded_cells, 0U) << format;
-            EXPECT_GT(found.max_rounded, 0) << format;
-            EXPECT_LT(found.max_rounded, 1e-5) << format;
-        }
-        Mesh single = mesh;
-        for (double& x : single.points) x = static_cast<float>(x);
-        const CurvedCells found = curved_cells(single);
-        EXPECT_EQ(found.cells, 0U);
-        EXPECT_GT(found.rounded_cells, 0U);
-        EXPECT_LT(found.max_rounded, 1e-6);
-        EXPECT_NE(message(found).find("by rounding"), std::string::npos);
-        // Curves stay curves with few digits, and a small one with all digits is one.
+        const CurvedCells moved = curved_cells(mesh);
+        EXPECT_GT(moved.cells, 0U);
+        EXPECT_LT(moved.max_deviation, 1e-15);
+        // Curves stay curved with few digits, and a small one with all digits is one.
         const CurvedCells curved = curved_cells(printed(turned(curved_ball(d)), "%.6g"));
         EXPECT_EQ(curved.cells, 1U << d);
         EXPECT_NEAR(curved.max_deviation, deviation_of_ball, 1e-5);
-        const CurvedCells slight = curved_cells(turned(curved_ball(d, 1e-9)));
-        EXPECT_EQ(slight.cells, 1U << d);
-        EXPECT_NEAR(slight.max_deviation, 1e-9 * deviation_of_ball, 1e-15);
-        EXPECT_EQ(slight.rounded_cells, 0U);
+        for (const double part : {1e-9, 1e-11, 2e-12}) {
+            const CurvedCells slight = curved_cells(curved_ball(d, part));
+            EXPECT_EQ(slight.cells, 1U << d);
+            EXPECT_NEAR(slight.max_deviation, part * deviation_of_ball, 1e-15);
+        }
     }
+}
+
+// The left side of the triangle is x = 4e-6 y (1 - y): one unit of six places is no rounding of 0.
+TEST(Curved, AUnitOffIsACurve) {
+    Mesh mesh;
+    mesh.dimension = 2;
+    mesh.points = {0, 0, 1, 0, 0, 1, 0.5, 0, 0.600001, 0.600001, 0.000001, 0.5};
+    mesh.cells = {0, 1, 2};
+    mesh.mid_nodes = {3, 4, 5};
+    std::vector<std::uint8_t> each;
+    expect_curved(curved_cells(mesh, &each), 1, 0.1 * (1 + 1e-5));
+    EXPECT_EQ(each, std::vector<std::uint8_t>{0b110});
+}
+
+/// As a file of several types has it.
+Mesh among_shapes(const Mesh& mesh) {
+    Mesh out = mesh;
+    out.mid_nodes.clear();
+    out.cells.clear();
+    const std::size_t mids = mesh::edges_of(mesh.dimension).size();
+    for (std::size_t cell = 0; cell < mesh.cell_count(); ++cell) {
+        const auto corners = mesh.corners_of(cell);
+        out.shapes.types.push_back(mesh.dimension == 2 ? 22 : 24);
+        out.shapes.nodes.insert(out.shapes.nodes.end(), corners.begin(), corners.end());
+        const auto* const mid = &mesh.mid_nodes[mids * cell];
+        out.shapes.nodes.insert(out.shapes.nodes.end(), mid, mid + mids);
+        out.shapes.ends.push_back(static_cast<std::int64_t>(out.shapes.nodes.size()));
+    }
+    EXPECT_FALSE(mesh::cut_into_simplices(out));
+    return out;
+}
+
+TEST(Curved, CellsAmongOtherShapesAreMeasuredLikewise) {
+    for (const int d : {2, 3}) {
+        for (const Mesh& mesh : {curved_ball(d), turned(curved_ball(d)), with_middles(turned(straight_ball(d)))}) {
+            std::vector<std::uint8_t> each;
+            const CurvedCells own = curved_cells(mesh), found = curved_cells(among_shapes(mesh), &each);
+            EXPECT_EQ(found.cells, own.cells);
+            EXPECT_EQ(found.max_deviation, own.max_deviation);
+            EXPECT_EQ(found.rounded_cells, own.rounded_cells);
+            EXPECT_EQ(each.empty(), own.cells == 0);
+        }
+        // They are where the file has them, rounded or not.
+        CurvedCells rounded = curved_cells(among_shapes(with_middles(turned(straight_ball(d)))));
+        rounded.mapped = true;
+        EXPECT_NE(message(rounded).find("by rounding; they are taken as they are"), std::string::npos);
+    }
+}
+
+TEST(Curved, CellsTakenByTheirCornersAreTold) {
+    Mesh mesh = straight_ball(3);
+    mesh.by_corners = 2;
+    EXPECT_EQ(message(curved_cells(mesh)),
+              "2 cells of a higher order are taken by their corners: nodes and values amid "
+              "edges and sides are left out");
 }
 
 // Coordinates of one digit, whose unit is a tenth: no deviation of that size is put down to rounding.
@@ -129,22 +210,6 @@ TEST(Curved, FewDigitsHideNoCurve) {
     big.cells = {0, 1, 2};
     big.mid_nodes = {3, 4, 5};
     expect_curved(curved_cells(big), 1, 0.0009);
-}
-
-// What a mesher computes on a straight line, and a motion there and back.
-TEST(Curved, ErrorsOfArithmeticAreRounding) {
-    for (const int d : {2, 3}) {
-        Mesh moved = turned(straight_ball(d));
-        for (double& x : moved.points) x = (x + 1000) - 1000;
-        const CurvedCells found = curved_cells(moved);
-        EXPECT_EQ(found.cells, 0U);
-        EXPECT_GT(found.rounded_cells, 0U);
-        EXPECT_LT(found.max_rounded, 1e-12);
-        for (const double part : {2e-12, 1e-11}) {
-            EXPECT_EQ(curved_cells(turned(curved_ball(d, part))).cells, 0U);
-            EXPECT_EQ(curved_cells(turned(curved_ball(d, part))).rounded_cells, 1U << d);
-        }
-    }
 }
 
 // A node far away makes the rest no straighter.
@@ -171,7 +236,8 @@ TEST(Curved, SubnormalNumbers) {
     const double unit = std::numeric_limits<double>::denorm_min();
     Mesh mesh = straight_ball(2);
     for (double& x : mesh.points) x *= 3 * unit;  // a middle of 1.5 units is one or two
-    expect_straight(curved_cells(mesh));
+    EXPECT_EQ(curved_cells(mesh).cells, 0U);
+    EXPECT_EQ(curved_cells(mesh).rounded_cells, 4U);
     mesh = straight_ball(2);
     for (double& x : mesh.points) x *= 8 * unit;
     expect_straight(curved_cells(mesh));

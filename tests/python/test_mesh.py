@@ -166,7 +166,7 @@ def test_curved_cells_are_told_or_refused(tmp_path, recwarn):
     points = np.array([[0, 0], [4, 0], [0, 4], [2, 0], [2, 2], [0, 2]], dtype=float)
     cells = [[0, 1, 2, 3, 4, 5]]
     straight = barycert.Mesh(points, cells, curved="refuse")
-    assert straight.curved == {"cells": 0, "max_deviation": 0, "rounded_cells": 0, "max_rounded": 0}
+    assert straight.curved == {"cells": 0, "max_deviation": 0, "rounded_cells": 0, "max_rounded": 0, "by_corners": 0}
     assert not recwarn.list
     points[4] += 0.5
     with pytest.warns(UserWarning, match="1 cell is curved: mid-edge nodes lie up to 0.1") as told:
@@ -184,7 +184,7 @@ def test_curved_cells_are_told_or_refused(tmp_path, recwarn):
     for make in (lambda: barycert.read(path, curved="refuse"), lambda: barycert.Mesh(points, cells, curved="refuse")):
         with pytest.raises(barycert.Error, match="the mesh is curved.*1 cell is curved"):
             make()
-    with pytest.raises(barycert.Error, match="curved=: expected isoparametric, straight or refuse, found bent"):
+    with pytest.raises(barycert.Error, match="curved=: expected isoparametric, straight, refuse or exact, found bent"):
         barycert.read(path, curved="bent")
     # As it is: the bulge is inside, and the node has its value.
     bulge = [[2.4, 2.4]]
@@ -193,6 +193,17 @@ def test_curved_cells_are_told_or_refused(tmp_path, recwarn):
     bent = barycert.Mesh(points, cells, point_data={"f": np.arange(6.0)})
     assert bent.locate(bulge).cell[0] == 0
     assert bent.sample(points[4:5], "f")[0] == 4
+
+
+def test_nodes_off_by_rounding_count_as_middles_unless_they_are_to_be_exact():
+    a, b = 0.1, 0.2
+    middle = (a + b) / 2  # rounded: the sum of these doubles is none
+    points = np.array([[a, a], [b, a], [a, b], [middle, a], [middle, middle], [a, middle]])
+    cells = [[0, 1, 2, 3, 4, 5]]
+    rounded = barycert.Mesh(points, cells)
+    exact = barycert.Mesh(points, cells, curved="exact")
+    assert rounded.curved["cells"] == 0 and exact.curved["cells"] == rounded.curved["rounded_cells"] == 1
+    assert pickle.loads(pickle.dumps(exact)).curved == exact.curved
 
 
 def test_cells_of_other_shapes(tmp_path):

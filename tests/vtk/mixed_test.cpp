@@ -80,8 +80,7 @@ std::vector<double> places_around(vtkDataSet* data, std::size_t count) {
 struct Setting {
     int interpolation = vtkBarycertProbe::PULLING, curved = vtkBarycertProbe::ISOPARAMETRIC;
     BuildOptions options() const {
-        return {.interpolation = static_cast<CellInterpolation>(interpolation),
-                .straight_sides = curved == vtkBarycertProbe::STRAIGHT};
+        return {.interpolation = static_cast<CellInterpolation>(interpolation), .curved = static_cast<Curved>(curved)};
     }
 };
 const std::vector<Setting> settings{

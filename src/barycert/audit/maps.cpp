@@ -120,7 +120,7 @@ void fill_errors(MeshMap& map, const PreparedMesh& m, const std::vector<Mesh::In
 
 void fill_map(MeshMap& map, const PreparedMesh& m, const std::vector<Kernel>& kernels, std::uint64_t seed,
               int threads) {
-    const Locator locator = Locator::build(m.mesh, {.straight_sides = true, .threads = threads}).value();
+    const Locator locator = Locator::build(m.mesh, {.curved = Curved::straight, .threads = threads}).value();
     MeshFrame frame = best_frame(locator, m, threads);
     set_size(frame, m);
     const std::vector<Mesh::Index> owners = owners_in(locator, m, frame, threads);

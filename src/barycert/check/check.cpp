@@ -58,9 +58,9 @@ const char* fault_of_sizes(const Mesh& mesh) {
 }
 
 /// How many cells with each defect that breaks the certificate are curved.
-CurvedCells note_curved_cells(const Mesh& mesh, CheckReport& report) {
+CurvedCells note_curved_cells(const Mesh& mesh, bool exact, CheckReport& report) {
     std::vector<std::uint8_t> each;
-    const CurvedCells curved = curved_cells(mesh, &each);
+    const CurvedCells curved = curved_cells(mesh, &each, exact);
     const std::size_t known = std::min(each.size(), report.measures.defects.size());
     for (Defect& defect : report.defects) {
         if (!defect.breaks()) continue;
@@ -178,7 +178,7 @@ CheckReport check_mesh(const Mesh& mesh, const CheckOptions& options) {
         report.shapes = mesh.shapes.count();
         if (mesh.cell_numbers.size() == mesh.cell_count()) report.cell_numbers = mesh.cell_numbers;
     }
-    report.curved = note_curved_cells(mesh, report);
+    report.curved = note_curved_cells(mesh, options.curved == Curved::exact, report);
     report.notes = mesh.notes;
     report.not_finite = not_finite_values(mesh);
     report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -201,9 +201,10 @@ Result<MeshFormat> mesh_output_format(const std::string& path) {
                           "name a file with one of these suffixes");
 }
 
-void note_by_corners(std::size_t cells, const std::string& path, Notes& notes) {
+void note_by_corners(std::size_t cells, const std::string& path, Mesh& mesh) {
+    mesh.by_corners = cells;
     const std::string text = std::to_string(cells) + " cells of a higher order: they are taken by their corners";
-    if (cells != 0) notes.push_back({Note::Kind::converted, text, path, true});
+    if (cells != 0) mesh.notes.push_back({Note::Kind::converted, text, path, true});
 }
 
 void cut_into_simplices(Mesh& mesh, const std::string& path) {

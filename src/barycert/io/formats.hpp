@@ -143,8 +143,8 @@ std::string meshio_format(const std::string& path);
 /// Of a mesh that is to be written: by the end of its name. Error: it is another one.
 Result<MeshFormat> mesh_output_format(const std::string& path);
 
-/// Tells that so many cells are taken by their corners, if there are such.
-void note_by_corners(std::size_t cells, const std::string& path, Notes& notes);
+/// Tells that so many cells of the mesh are taken by their corners, if there are such.
+void note_by_corners(std::size_t cells, const std::string& path, Mesh& mesh);
 
 /// As mesh::cut_into_simplices(), and notes it; nothing without shapes. Throws: a polyhedron that is not closed.
 void cut_into_simplices(Mesh& mesh, const std::string& path);

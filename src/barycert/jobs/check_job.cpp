@@ -234,6 +234,7 @@ Result<CheckedMesh> check_files(const CheckJob& job) try {
                "choose another name");
     const Mesh& mesh = checked.mesh;
     if (job.curved == Curved::refuse) measure_curved(checked.mesh, job.mesh, job.curved).value();
+    options.curved = job.curved;
     check_nothing_in_the_way(job, mesh);
     Plc plc;
     if (!job.plc.empty()) {

@@ -92,7 +92,7 @@ void report_mesh(const MeshJob& job, const Mesh& mesh, int threads, MeshReport& 
 BuildOptions build_options(const MeshJob& job, int threads, Prove prove) {
     return {.prove = prove,
             .interpolation = job.cell_interpolation,
-            .straight_sides = job.curved == Curved::straight,
+            .curved = job.curved,
             .threads = threads,
             .progress = [&job](const char* stage) { tell_stage(job, stage); }};
 }

@@ -166,7 +166,7 @@ void draw_mesh(const RenderJob& job, RenderReport& report) {
     report.rounding = job.figure.rounding;
     try {
         SceneChoice show = job.show;
-        show.location = {.straight_sides = job.curved == Curved::straight, .threads = job.threads};
+        show.location = {.curved = job.curved, .threads = job.threads};
         if (!job.points.empty()) {
             const auto points = open_points(job.points, mesh.dimension, {.columns = job.columns}).value();
             while (points->read(1U << 20, show.points).value() != 0) continue;

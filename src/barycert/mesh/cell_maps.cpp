@@ -7,8 +7,9 @@ namespace barycert::mesh {
 
 namespace iso = core::isoparametric;
 
-CellMaps::CellMaps(const Mesh& mesh, bool products, bool curves) : mesh_(mesh), products_(products), curves_(curves) {
-    if (curves && !mesh.mid_nodes.empty()) curved_cells(mesh, &curved_);
+CellMaps::CellMaps(const Mesh& mesh, bool products, Curved curved)
+    : mesh_(mesh), products_(products), curves_(curved != Curved::straight) {
+    if (curves_ && !mesh.mid_nodes.empty()) curved_cells(mesh, &curved_, curved == Curved::exact);
 }
 
 const iso::Reference* CellMaps::reference(std::size_t whole) const {

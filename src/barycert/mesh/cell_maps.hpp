@@ -9,9 +9,10 @@ namespace barycert::mesh {
 /// A cell as users know it is here a whole one: a shape, or else a cell.
 class CellMaps {
 public:
-    /// `products`: of hexahedra, voxels, wedges, pyramids, quadrilaterals and pixels among Mesh::shapes. `curves`: of
-    /// simplices of order 2 to 4 there, and of cells with mid-edge nodes off the middle by a curve.
-    CellMaps(const Mesh& mesh, bool products, bool curves);
+    /// `products`: of hexahedra, voxels, wedges, pyramids, quadrilaterals and pixels among Mesh::shapes. Unless
+    /// `curved` is straight, of simplices of order 2 to 4 there, and of cells with mid-edge nodes off the middle by a
+    /// curve; all of them count as such if it is exact.
+    CellMaps(const Mesh& mesh, bool products, Curved curved);
 
     struct Nodes {
         std::array<Mesh::Index, core::isoparametric::max_nodes> at{};

@@ -212,9 +212,8 @@ Result<Shape> agree_on_shape(Exchange& exchange, const PieceFacts& mine) {
 
 Status IndexedPiece::build(const Shape& shape) {
     if (const Result<CurvedCells> curved = measure_curved(mesh, {}, shape.curved); !curved) return curved.error();
-    Result<Locator> made = Locator::build(mesh, {.prove = Prove::when_it_pays,
-                                                 .interpolation = shape.interpolation,
-                                                 .straight_sides = shape.curved == Curved::straight});
+    Result<Locator> made = Locator::build(
+        mesh, {.prove = Prove::when_it_pays, .interpolation = shape.interpolation, .curved = shape.curved});
     if (!made) return made.error();
     locator = std::move(*made);
     some_cells = size_of_some_cells(mesh);

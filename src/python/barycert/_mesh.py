@@ -144,7 +144,8 @@ class Mesh(GivenBack):
             With 6 or 10 columns cells of second order, nodes at mid-edges in VTK's order: edges 01 12 02 (03 13 23).
         point_data, cell_data: fields, name to array (n, ...) or (m, ...).
         curved: cells of second order whose mid-edge nodes are not at the middle (see `Mesh.curved`): "isoparametric", as
-            they are where points are located; "straight", with straight sides, and a warning; "refuse" raises an Error.
+            they are where points are located; "straight", with straight sides, and a warning; "refuse" raises an Error;
+            "exact", as they are, and so where a node is off the middle by rounding alone.
         interpolation: in hexahedra and other cells that are no simplices, which files have: "linear" on the simplices that
             each is cut into, or "multilinear", their isoparametric functions.
 
@@ -257,7 +258,8 @@ class Mesh(GivenBack):
     def curved(self) -> Dict[str, float]:
         """How far sides are from straight ones, of which `check` speaks: `cells`, how many have a mid-edge node off the
         middle of its edge; `max_deviation`, the largest distance from it in parts of the edge's length; `rounded_cells`
-        and `max_rounded`, the same of those where rounding of coordinates explains it. All 0 for linear cells."""
+        and `max_rounded`, the same of those where rounding of coordinates explains it, whose nodes count as middles;
+        `by_corners`, how many cells of a higher order are taken by their corners. All 0 for linear cells."""
         return self._core.curved()
 
     @property

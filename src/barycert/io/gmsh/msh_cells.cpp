@@ -337,7 +337,7 @@ void note_cells(MshCells& cells, bool partitioned, const std::string& path) {
     if (!others.empty())
         left_out("elements of a lower dimension: " + others + (cells.apart ? "; some have nodes that no cell has" : ""),
                  cells.apart);
-    note_by_corners(cells.by_corners, path, cells.mesh.notes);
+    note_by_corners(cells.by_corners, path, cells.mesh);
     if (cells.repeated != 0)
         left_out(std::to_string(cells.repeated) +
                      " elements that repeat the one before them for a further physical group: gmsh:physical has the "

@@ -172,7 +172,7 @@ private:
                 mesh::add_shape(mesh_, type, std::span(own.corners).subspan(i * corners, corners));
             all.references.insert(all.references.end(), own.references.begin(), own.references.end());
         }
-        note_by_corners(by_corners, file_.path(), mesh_.notes);
+        note_by_corners(by_corners, file_.path(), mesh_);
         return all;
     }
 

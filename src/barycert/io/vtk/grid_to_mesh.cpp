@@ -191,7 +191,7 @@ void copy_shapes(const RawGrid& grid, std::size_t count, const std::string& path
         }
         shapes.face_ends.push_back(static_cast<std::int64_t>(shapes.ring_ends.size()));
     }
-    note_by_corners(by_corners, path, mesh.notes);
+    note_by_corners(by_corners, path, mesh);
 }
 
 /// Makes doubles of integers, if these are exact: the field that they would be in a file of these cells alone.

@@ -21,13 +21,18 @@ using base::printable;
 void Document::curved(const CurvedCells& curved, const std::string& mesh) {
     const std::string text = message(curved), line = (mesh.empty() ? "" : mesh + ": ") + text;
     if (text.empty()) return;
-    const bool really = curved.cells != 0;
+    const bool really = curved.cells != 0 || curved.by_corners != 0;
     const Tone tone = really ? Tone::strong : Tone::plain;
-    const std::size_t half = text.find("; ") + 1;
-    if (!mesh.empty())
+    if (!mesh.empty()) {
         say(line, tone, For::terminal);
-    else
-        add(Named{really ? "curved" : "rounded", {text.substr(0, half), text.substr(half + 1)}, tone}, For::terminal);
+    } else {
+        std::vector<std::string> lines;  // each ends with its semicolon
+        for (std::size_t at = 0, end = 0; at < text.size(); at = end + 1) {
+            end = std::min(text.find("; ", at), text.size() - 1) + 1;
+            lines.push_back(text.substr(at, end - at));
+        }
+        add(Named{really ? "curved" : "rounded", std::move(lines), tone}, For::terminal);
+    }
     if (!really) return say(line + ".", Tone::soft, For::page);
     add(Headline{.tone = Tone::strong,
                  .text = "Curved cells",

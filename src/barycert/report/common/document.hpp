@@ -207,7 +207,7 @@ std::string page_text(const Document& document);
 
 /// For sentences that hold of straight sides alone; empty where these are the mesh's own.
 inline std::string_view for_straight_sides(const CurvedCells& curved) {
-    return curved.cells == 0 || curved.mapped ? "" : " for straight sides";
+    return (curved.cells == 0 || curved.mapped) && curved.by_corners == 0 ? "" : " for straight sides";
 }
 
 /// "2 s on 4 threads: mesh 0.5, sampling 1.5".

@@ -40,15 +40,20 @@ sample::MapHeader header_of(const auto& mesh, bool all) {
 /// Of a mesh some of whose cells are not taken as straight simplices also their nodes.
 sample::MapHeader header_of(const Mesh& mesh, bool all, const BuildOptions& located) {
     sample::MapHeader header = header_of(mesh, all);
-    const auto is_curved = [&] {
-        const CurvedCells curved = curved_cells(mesh);
+    const auto is_curved = [&](const CurvedCells& curved) {
         return curved.cells + curved.rounded_cells != 0 ||
                std::ranges::any_of(mesh.shapes.types, mesh::is_curved_simplex);
     };
     const auto has_products = [](std::uint8_t type) { return core::isoparametric::linear_reference(type) != nullptr; };
     const bool multilinear = located.interpolation == CellInterpolation::multilinear;
     if (multilinear && std::ranges::any_of(mesh.shapes.types, has_products)) header.taken = 1;
-    if (!located.straight_sides && is_curved()) header.taken |= 2;
+    if (located.curved != Curved::straight) {
+        const CurvedCells curved = curved_cells(mesh);
+        if (is_curved(curved)) header.taken |= 2;
+        // Where nodes are off by rounding, and taken as being there.
+        if (located.curved == Curved::exact && curved.rounded_cells != 0 && mesh.shapes.types.empty())
+            header.taken |= 4;
+    }
     const auto add = [&](const auto& numbers) {
         for (const auto number : numbers)
             header.fingerprint = sample::map_step(header.fingerprint, static_cast<std::uint32_t>(number));
@@ -63,7 +68,7 @@ sample::MapHeader header_of(const Mesh& mesh, bool all, const BuildOptions& loca
 std::string words_of(std::uint16_t taken) {
     constexpr std::array words{"straight cells, linear", "multilinear cells", "curved cells",
                                "curved and multilinear cells"};
-    return words[taken & 3U];
+    return std::string(words[taken & 3U]) + ((taken & 4U) != 0 ? ", with every node as it is" : "");
 }
 
 }  // namespace
@@ -165,7 +170,7 @@ struct MapReaderData {
                               "version " + std::to_string(head.version),
                               "create the map again with this version, or read it with the version that wrote it");
         if (head.checksum != head.right_checksum() || (head.dimension != 2 && head.dimension != 3) || head.all > 1 ||
-            head.taken > 3)
+            head.taken > 7)
             return damage("the header of the map is damaged", "the bytes that were written", "others");
         // A row takes more than a byte: no product below can overflow.
         if (head.rows > size)

@@ -38,7 +38,7 @@ struct MapHeader {
     std::array<char, 8> magic{};  ///< none in a file without its end, which must not pass for a map
     std::uint32_t version = map_version;
     std::uint8_t dimension = 3, all = 0;
-    std::uint16_t taken = 0;  ///< how cells are: 1, multilinear; 2, curved
+    std::uint16_t taken = 0;  ///< how cells are: 1, multilinear; 2, curved; 4, with every node as it is
     std::uint64_t rows = 0, nodes = 0, cells = 0, fingerprint = 0;
     std::uint64_t checksum = 0;  ///< of what is before
 
