@@ -264,8 +264,7 @@ void SampledMesh::prepare(std::span<const double> all_points) {
 }
 
 bool SampledMesh::may_be_mapped() const {
-    const bool curved = report.curved.cells + report.curved.rounded_cells != 0 ||
-                        std::ranges::any_of(mesh_.shapes.types, mesh::is_curved_simplex);
+    const bool curved = report.curved.cells != 0 || std::ranges::any_of(mesh_.shapes.types, mesh::is_curved_simplex);
     return job.cell_interpolation != CellInterpolation::linear || (curved && job.curved != Curved::straight);
 }
 

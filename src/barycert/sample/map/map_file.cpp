@@ -40,19 +40,16 @@ sample::MapHeader header_of(const auto& mesh, bool all) {
 /// Of a mesh some of whose cells are not taken as straight simplices also their nodes.
 sample::MapHeader header_of(const Mesh& mesh, bool all, const BuildOptions& located) {
     sample::MapHeader header = header_of(mesh, all);
-    const auto is_curved = [&](const CurvedCells& curved) {
-        return curved.cells + curved.rounded_cells != 0 ||
-               std::ranges::any_of(mesh.shapes.types, mesh::is_curved_simplex);
-    };
     const auto has_products = [](std::uint8_t type) { return core::isoparametric::linear_reference(type) != nullptr; };
     const bool multilinear = located.interpolation == CellInterpolation::multilinear;
     if (multilinear && std::ranges::any_of(mesh.shapes.types, has_products)) header.taken = 1;
     if (located.curved != Curved::straight) {
-        const CurvedCells curved = curved_cells(mesh);
-        if (is_curved(curved)) header.taken |= 2;
-        // Where nodes are off by rounding, and taken as being there.
-        if (located.curved == Curved::exact && curved.rounded_cells != 0 && mesh.shapes.types.empty())
-            header.taken |= 4;
+        const bool exact = located.curved == Curved::exact;
+        if (curved_cells(mesh, nullptr, exact).cells != 0 ||
+            std::ranges::any_of(mesh.shapes.types, mesh::is_curved_simplex))
+            header.taken |= 2;
+        // Where nodes are off by rounding, and count as middles otherwise.
+        if (exact && mesh.shapes.types.empty() && curved_cells(mesh).rounded_cells != 0) header.taken |= 4;
     }
     const auto add = [&](const auto& numbers) {
         for (const auto number : numbers)
