@@ -18,7 +18,9 @@
 ///   L3  A degenerate cell owns nothing.
 ///   D1  Results depend on the points and the mesh alone, not on threads, SIMD target, order of points, or the method.
 ///   N1  `nearest` is exact for all finite doubles, near and far: no point of a cell of non-zero volume is nearer than
-///       the one returned, and its cell has the lowest index among all that have a point as near.
+///       the one returned, and its cell has the lowest index among all that have a point as near. Of cells with curved
+///       sides it is the nearest point of these; which of two is nearer is told by 250 bits or rational numbers, and
+///       where no proof is found that a point is the nearest, none is nearer by more than samplers count.
 ///   N2  Its cost does not grow with the distance: a point 1e300 mesh sizes away visits about as many cells as one ten
 ///       sizes away.
 ///
@@ -62,7 +64,8 @@ struct Nearest {
     double distance = 0;    ///< the exact distance rounded to nearest; infinite if it exceeds the doubles
     /// The vertex, edge or face of the cell in whose relative interior its nearest point lies: nodes of the mesh,
     /// ascending; unused entries are -1. The nearest point is the orthogonal projection onto what they span, where its
-    /// weights are positive. All entries are -1 if the query point is inside the cell.
+    /// weights are positive; but of a cell taken by a map they are corners of the edge or face, three of one with four,
+    /// and the nearest point is that of the curved side. All entries are -1 if the query point is inside the cell.
     std::array<Mesh::Index, 3> nodes{-1, -1, -1};
 };
 
@@ -152,8 +155,9 @@ public:
                              NonfinitePoints nonfinite = NonfinitePoints::error) const;
 
     /// The nearest point of all cells that are not degenerate, if its rounded distance is at most `limit`; none if that
-    /// is negative or NaN. Takes some microseconds to some hundred; more where many cells are equally near up to 1e-13
-    /// of the size of the mesh: these are compared in integers. Error: a coordinate that is not finite.
+    /// is negative or NaN. Takes some microseconds to some hundred, beside curved sides a millisecond; more where many
+    /// cells are equally near up to 1e-13 of the size of the mesh: these are compared in integers. Error: a coordinate
+    /// that is not finite.
     Result<Nearest> nearest(const double* point, double limit) const;
 
 private:

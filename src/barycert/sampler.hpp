@@ -13,7 +13,8 @@
 ///   N3  Under the policy `nearest`, the value of a point field is that of the nearest cell, at the point of that cell
 ///       that is nearest to the query point; NaN as in V2. Each component lies between the cell's nodal values. On
 ///       cells of second order the weights of the nearest point are rounded first, and the value may exceed the nodal
-///       values as far as the quadratic does in the cell.
+///       values as far as the quadratic does in the cell. Of cells with maps (Locator) it is the value of their own
+///       function at the nearest point of their curved sides, rounded once.
 ///   E1  Nothing is silent: a point outside gets NaN unless the policy says otherwise, and SampleCounts has the numbers
 ///       of points inside, on boundaries and outside.
 /// With Rounding::plain, owners and features are exact as well; values are computed in plain double.
@@ -49,10 +50,13 @@ struct SamplerData;
 /// What a point outside every cell gets.
 enum class Outside : std::uint8_t {
     nan,
-    error,        ///< the call returns an Error that names the first such point
-    fill,         ///< OutsidePolicy::fill
-    nearest,      ///< point fields at the nearest point of the mesh, cell fields of its cell
-    extrapolate,  ///< the function of the nearest cell, evaluated where the point is
+    error,    ///< the call returns an Error that names the first such point
+    fill,     ///< OutsidePolicy::fill
+    nearest,  ///< point fields at the nearest point of the mesh, cell fields of its cell
+    /// The function of the nearest cell, evaluated where the point is. Of a cell with a map (Locator) it is continued
+    /// from the nearest point if the map is proved to be one to one in a box that has both in reference coordinates;
+    /// else the point has the value of `nearest`, and is counted (SampleCounts::unmapped).
+    extrapolate,
 };
 
 struct OutsidePolicy {

@@ -70,10 +70,12 @@ struct SampleCounts {
     std::uint64_t snapped = 0;  ///< points outside that got the value of the nearest point
     std::uint64_t extrapolated = 0;
     std::uint64_t without_value = 0;  ///< points outside that got NaN, or the number to fill in
-    /// Points in cells with a map where 1,200 bits do not tell how a value rounds.
+    /// Points in cells with a map, or outside of them, where 1,200 bits do not tell how a value or a distance rounds,
+    /// or where no proof is found which point is nearest.
     std::uint64_t undecided = 0;
-    double max_off = 0;  ///< no value there is farther from the one that is rounded correctly: as a rule an ulp
+    double max_off = 0;  ///< no value or distance is farther from the one rounded correctly: as a rule an ulp
     /// Points in cells with a map whose reference coordinates were not found: they have the values of the cell's parts.
+    /// Outside, extrapolated, they have that of the nearest point.
     std::uint64_t unmapped = 0;
     double farthest = 0;  ///< max distance of those snapped or extrapolated
 

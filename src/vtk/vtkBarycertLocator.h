@@ -16,7 +16,7 @@
  * with points that are not finite, is an error, and nothing is found: GetExact() is false then.
  *
  * FindClosestPoint and its variants are exact as well: the cell is the lowest of those nearest, and `inside` is 1 if
- * the point lies in it. Outside of curved and multilinear cells what is nearest is that of their simplices. So is
+ * the point lies in it. Outside of curved and multilinear cells it is the nearest point of their sides. So is
  * IntersectWithLine on a surface, unless Tolerant: it has no tolerance, and gives what the closed segment meets, in
  * exact order, ties by cell; t is rounded once, and point and parametric coordinates are computed from it.
  * FindCellsWithinBounds, FindCellsAlongLine, FindCellsAlongPlane, GenerateRepresentation and all other

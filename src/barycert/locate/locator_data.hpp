@@ -244,7 +244,7 @@ struct LocatorData {
     }
     /// Precondition: there is a cell.
     const NearestTree& nearest_tree() const {
-        return nearest_tree_.get([&] { return NearestTree(index); });
+        return nearest_tree_.get([&] { return NearestTree(index, mapped.get()); });
     }
     /// Precondition for these two: proved().
     const NodeCells& node_cells() const {

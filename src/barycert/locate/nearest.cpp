@@ -5,13 +5,16 @@
 
 #include "barycert/environment.hpp"
 #include "barycert/locate/batch.hpp"
+#include "barycert/locate/mapped/nearest_side.hpp"
 #include "barycert/locate/near_bounds.hpp"
 
 namespace barycert {
 namespace locate {
 namespace {
 
-Box box_of_cell(const CellIndex& index, std::size_t cell) {
+/// Empty of cells that have maps.
+Box box_of_cell(const CellIndex& index, const MappedCells* mapped, std::size_t cell) {
+    if (mapped != nullptr && mapped->is_mapped(index.original[cell])) return empty_box;
     return box_of(3, index.corner_points(static_cast<Place>(cell)).data(), static_cast<int>(index.corners()));
 }
 
@@ -25,8 +28,12 @@ struct Open {
 
 class Search {
 public:
-    Search(const CellIndex& index, const double* point, double limit, NearestWork& work)
-        : index_(index), work_(work), limited_(limit < infinity), limit_(limited_ ? limit + 0x1p-1074L : 0) {
+    Search(const CellIndex& index, const MappedCells* mapped, const double* point, double limit, NearestWork& work)
+        : index_(index),
+          mapped_(mapped),
+          work_(work),
+          limited_(limit < infinity),
+          limit_(limited_ ? limit + 0x1p-1074L : 0) {
         std::copy_n(point, index_.dimension(), p_.begin());
     }
 
@@ -37,6 +44,7 @@ public:
 
     Nearest in(const NearestTree& tree) {
         const std::size_t top = tree.levels() - 1;
+        if (is_empty(tree.box(top, 0))) return found_;
         best_.place = place(tree.box(top, 0));  // of no cell: something to compare with
         std::vector<Open> stack;
         open(tree.box(top, 0), top, 0, stack);
@@ -50,7 +58,7 @@ public:
             const std::size_t below = now.level == 0 ? index_.cell_count() : tree.count(now.level - 1);
             for (std::size_t i = first; i < std::min(below, first + NearestTree::fan); ++i) {
                 if (now.level == 0) {
-                    open(box_of_cell(index_, i), 0, i, next);
+                    open(box_of_cell(index_, mapped_, i), 0, i, next);
                 } else {
                     open(tree.box(now.level - 1, i), now.level - 1, i, next);
                 }
@@ -71,6 +79,7 @@ private:
         return found_;
     }
 
+    static bool is_empty(const Box& box) { return box.low[0] > box.high[0]; }
     NearPlace place(const Box& box) const { return NearPlace(p_, box.nearest(p_), {}); }
 
     /// Certainly farther than the best, or than the limit.
@@ -83,6 +92,7 @@ private:
     }
 
     void open(const Box& box, std::size_t level, std::size_t i, std::vector<Open>& out) {
+        if (is_empty(box)) return;
         ++work_.boxes;
         const NearPlace x = place(box);
         if (!beyond(x)) out.push_back({key(farther(x, best_.place).value), level, i});
@@ -124,6 +134,7 @@ private:
     }
 
     const CellIndex& index_;
+    const MappedCells* mapped_;
     NearestWork& work_;
     bool limited_;
     Real limit_;  ///< with room for the rounding of distances
@@ -154,7 +165,7 @@ NearCell near_cell(const CellIndex& index, std::size_t place) {
     return cell;
 }
 
-NearestTree::NearestTree(const CellIndex& index) {
+NearestTree::NearestTree(const CellIndex& index, const MappedCells* mapped) {
     std::size_t below = index.cell_count();
     do {
         const std::size_t level = begin_.size(), count = (below + fan - 1) / fan;
@@ -162,7 +173,7 @@ NearestTree::NearestTree(const CellIndex& index) {
         for (std::size_t i = 0; i < count; ++i) {
             Box all = empty_box;
             for (std::size_t j = fan * i; j < std::min(below, fan * (i + 1)); ++j)
-                all.add(level == 0 ? box_of_cell(index, j) : boxes_[begin_[level - 1] + j]);
+                all.add(level == 0 ? box_of_cell(index, mapped, j) : boxes_[begin_[level - 1] + j]);
             boxes_.push_back(all);
         }
         below = count;
@@ -171,24 +182,24 @@ NearestTree::NearestTree(const CellIndex& index) {
 }
 
 Nearest find_nearest(const CellIndex& index, const NearestTree& tree, const double* point, double limit,
-                     NearestWork* work) {
+                     NearestWork* work, const MappedCells* mapped) {
     const Nearest none{.distance = infinity};
     if (!(limit >= 0)) return none;
     NearestWork unasked;
-    const Nearest found = Search(index, point, limit, work != nullptr ? *work : unasked).in(tree);
+    const Nearest found = Search(index, mapped, point, limit, work != nullptr ? *work : unasked).in(tree);
     return found.distance <= limit ? found : none;
 }
 
 Nearest find_nearest_of(const CellIndex& index, std::span<const std::uint32_t> places, const double* point,
                         double limit) {
     NearestWork unasked;
-    const Nearest found = Search(index, point, limit, unasked).among(places);
+    const Nearest found = Search(index, nullptr, point, limit, unasked).among(places);
     return found.distance <= limit ? found : Nearest{.distance = infinity};
 }
 
 Nearest find_nearest(const LocatorData& data, const double* point, double limit, NearestWork* work) {
     if (data.index.cell_count() == 0) return {.distance = infinity};
-    return find_nearest(data.index, data.nearest_tree(), point, limit, work);
+    return find_nearest(data.index, data.nearest_tree(), point, limit, work, data.mapped.get());
 }
 
 }  // namespace locate
@@ -199,7 +210,10 @@ Result<Nearest> Locator::nearest(const double* point, double limit) const {
     limit = base::held(limit);
     const std::size_t d = data_->index.dimension();
     if (Status status = locate::check_finite({point, d}, d); !status) return status.error();
-    return locate::find_nearest(*data_, point, limit);
+    if (data_->mapped == nullptr) return locate::find_nearest(*data_, point, limit);
+    if (!(limit >= 0)) return Nearest{.distance = std::numeric_limits<double>::infinity()};
+    if (const Location at = *locate(point); at.cell >= 0) return Nearest{.cell = at.cell};
+    return locate::nearest_in_maps(*data_, point, limit).nearest;
 }
 
 }  // namespace barycert

@@ -8,6 +8,8 @@
 
 namespace barycert::locate {
 
+class MappedCells;
+
 /// Boxes whose numbers are coordinates of nodes, unrounded: those of eight neighbouring cells, in the order of the
 /// index, then of eight such boxes, up to one. Those of the cells themselves are made when they are asked for: 7 bytes
 /// a cell in all. The whole numbers of CellTree would not do: from far away, a difference of 2^-31 of the mesh in depth
@@ -16,8 +18,8 @@ class NearestTree {
 public:
     static constexpr std::size_t fan = 8;
 
-    /// Precondition: there is a cell. Time O(cells).
-    explicit NearestTree(const CellIndex& index);
+    /// Without cells that have maps. Precondition: there is a cell. Time O(cells).
+    explicit NearestTree(const CellIndex& index, const MappedCells* mapped = nullptr);
 
     std::size_t levels() const { return begin_.size() - 1; }
     /// Of a level, the least one 0.
@@ -41,9 +43,10 @@ struct NearestWork {
     std::uint64_t comparisons = 0;  ///< in integers
 };
 
-/// As Locator::nearest, of cells or triangles in space. Preconditions: coordinates are finite; there is a cell.
+/// As Locator::nearest, of cells or triangles in space, without those that have maps. Preconditions: coordinates are
+/// finite; there is a cell.
 Nearest find_nearest(const CellIndex& index, const NearestTree& tree, const double* point, double limit,
-                     NearestWork* work = nullptr);
+                     NearestWork* work = nullptr, const MappedCells* mapped = nullptr);
 /// The same of the cells at these places alone.
 Nearest find_nearest_of(const CellIndex& index, std::span<const std::uint32_t> places, const double* point,
                         double limit);

@@ -6,6 +6,7 @@
 #include "barycert/environment.hpp"
 #include "barycert/grid.hpp"
 #include "barycert/locate/locator_data.hpp"
+#include "barycert/locate/mapped/nearest_side.hpp"
 #include "barycert/sample/points/near_piece.hpp"
 
 namespace barycert::pieces {
@@ -267,15 +268,24 @@ Closest IndexedPiece::closest(const double* x, double limit) const {
     if (found.cell >= 0 && straight()) found.weights = weights(found.cell, point.data());
     if (found.cell >= 0) return found.distance <= limit ? found : Closest();
     const bool flat = mesh.dimension == 2;
-    const Result<Nearest> nearest =
-        locator->nearest(point.data(), flat ? std::numeric_limits<double>::infinity() : limit);
-    if (!nearest || nearest->cell < 0) return {};
-    found.cell = nearest->cell;
-    found.distance = std::hypot(nearest->distance, off_plane);
+    const double most = flat ? std::numeric_limits<double>::infinity() : limit;
+    const locate::LocatorData& data = locate::LocatorData::of(*locator);
+    locate::NearestInMaps near;
+    if (data.mapped != nullptr) {
+        near = locate::nearest_in_maps(data, point.data(), most);
+    } else if (const Result<Nearest> straight = locator->nearest(point.data(), most)) {
+        near.nearest = *straight;
+    }
+    if (near.nearest.cell < 0) return {};
+    found.cell = near.nearest.cell;
+    found.distance = std::hypot(near.nearest.distance, off_plane);
     found.inside = false;
     if (!(found.distance <= limit)) return {};
-    // Of what is in a cell's simplex and not in the cell, it is the point itself.
-    if (nearest->nodes[0] >= 0) project_on(*this, *nearest, x, found);
+    if (near.on) {
+        place(near.on->at.place().data(), found.point.data());
+    } else {
+        project_on(*this, near.nearest, x, found);
+    }
     return found;
 }
 

@@ -90,8 +90,7 @@ struct IndexedPiece : Piece {
     Mesh::Index owner(const double* x) const;
     /// Correctly rounded weights, in a straight cell that is not degenerate, of a finite point on the axes of the mesh.
     std::array<double, 4> weights(Mesh::Index cell, const double* point) const;
-    /// The point of the cells that is nearest to one in space; none if a coordinate is not finite. Outside of cells
-    /// that are no straight simplices it is that of their simplices.
+    /// The point of the cells that is nearest to one in space; none if a coordinate is not finite.
     Closest closest(const double* x, double limit) const;
 
 private:

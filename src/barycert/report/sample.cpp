@@ -49,11 +49,13 @@ void tell_values(Document& d, const SampleReport& s) {
         text += fmt::format("; decided by the filter {}, by double-double {}, by integers {}", t.filter,
                             t.double_double, t.exact);
     if (s.counts.undecided != 0)
-        text += fmt::format("; how the values of {} round is not decided: they are off by at most {:.2g}",
+        text += fmt::format("; how the values{} of {} round is not decided: they are off by at most {:.2g}",
+                            s.counts.snapped + s.counts.extrapolated != 0 ? " or distances" : "",
                             counted(s.counts.undecided, "point"), s.counts.max_off);
     if (s.counts.unmapped != 0)
-        text += fmt::format("; {} got the values of the parts of cells: not found in their maps",
-                            counted(s.counts.unmapped, "point"));
+        text += fmt::format("; {} got the values of the parts of cells{}: not found in their maps",
+                            counted(s.counts.unmapped, "point"),
+                            s.counts.extrapolated != 0 ? ", or outside those at the nearest point" : "");
     if (s.rounding == Rounding::plain) text = "plain double, by --rounding plain; cells and features are exact";
     if (s.columns.empty()) text = "none: the mesh has no fields, and --field was not given";
     d.figure("values",

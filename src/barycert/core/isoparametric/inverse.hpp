@@ -34,6 +34,11 @@ struct Evaluated {
 Evaluated evaluate(const Reference& reference, const Places& places, const double* point, std::uint64_t active,
                    const double* values, std::size_t components, double* out);
 
+/// The same where the map is continued beyond the cell: at the x that is taken to `point`, if the map is proved to be
+/// one to one in a box that has x and `from`, a place of the reference cell. Else nothing is found.
+Evaluated evaluate_beyond(const Reference& reference, const Places& places, const double* point,
+                          const std::array<double, 3>& from, const double* values, std::size_t components, double* out);
+
 /// The sign of the Jacobian all over the cell, exactly.
 enum class JacobianSign : std::int8_t {
     negative = -1,

@@ -205,6 +205,19 @@ public:
         return false;
     }
 
+    /// Newton's method from a place of the reference cell; false unless the map is proved to be one to one in a box
+    /// around what it finds that has this place in it.
+    bool search_from(const Vector<double>& from) {
+        Vector<double> x = from;
+        if (d_ == 2) x[2] = 0;
+        if (!newton(x)) return false;
+        x_ = x;
+        double away = 0;
+        for (std::size_t k = 0; k < d_; ++k) away = std::max(away, std::abs(x[k] - from[k]));
+        // Both places are off by some roundings.
+        return contraction(away * (1 + 0x1p-20) + 0x1p-30) < 1;
+    }
+
     /// In the plane the third coordinate is 0.
     const Vector<double>& found() const { return x_; }
     /// Of the Jacobian there, about.

@@ -39,7 +39,7 @@ MappedCells::MappedCells(const Mesh& mesh, bool products, Curved curved)
 std::size_t MappedCells::bytes() const {
     return (whole_.size() + lane_cell_.size()) * sizeof(Mesh::Index) + sign_.size() + lane_nodes_.bytes() +
            lane_part_.size() + warped_.size() * (sizeof(Warped) + 2 * sizeof(index::Box)) +
-           curved_.size() * (sizeof(Mesh::Index) + 2 * sizeof(index::Box));
+           curved_.size() * (sizeof(Mesh::Index) + 2 * sizeof(index::Box)) + bytes_of(boundary_);
 }
 
 // Curved simplices.
@@ -205,15 +205,7 @@ iso::Evaluated MappedCells::evaluate(Mesh::Index cell, Feature feature, const do
     const mesh::CellMaps::Nodes nodes = maps_.nodes(whole(cell));
     const auto d = static_cast<std::size_t>(mesh_.dimension);
     std::size_t at_node = nodes.count;
-    scratch.clear();
-    for (const Mesh::Index node : nodes.all()) {
-        for (const Field* const field : fields) {
-            const auto width = static_cast<std::size_t>(field->components);
-            const double* const from = field->data.data() + static_cast<std::size_t>(node) * width;
-            scratch.insert(scratch.end(), from, from + width);
-        }
-    }
-    const std::size_t components = scratch.size() / nodes.count;
+    const std::size_t components = gather(nodes.all(), fields, scratch);
     const iso::Reference* const reference = maps_.reference(whole(cell));
     const bool may_be_node = feature == Feature::vertex || reference == nullptr || reference->is_simplex();
     for (std::size_t i = 0; may_be_node && i < nodes.count; ++i) {

@@ -24,12 +24,15 @@
 #include "barycert/index/box_tree.hpp"
 #include "barycert/locate/lanes.hpp"
 #include "barycert/locate/lazy.hpp"
+#include "barycert/locate/mapped/boundary.hpp"
 #include "barycert/locator.hpp"
 #include "barycert/mesh/cell_maps.hpp"
 #include "barycert/mesh/warped_sides.hpp"
 #include "barycert/predicates.hpp"
 
 namespace barycert::locate {
+
+struct PointOnSide;
 
 class MappedCells {
 public:
@@ -49,6 +52,13 @@ public:
     bool has_products() const { return products_; }
     bool has_curves() const { return curves_; }
     std::size_t bytes() const;
+
+    /// Where points outside have their nearest ones.
+    const MapBoundary& boundary() const {
+        return boundary_.get([&] { return MapBoundary(mesh_, maps_, sign_); });
+    }
+    /// The cell that stands for a whole one.
+    Mesh::Index first_cell(Mesh::Index whole) const { return first_part(static_cast<std::size_t>(whole)); }
 
     bool is_mapped(Mesh::Index cell) const { return cell >= 0 && sign_[whole(cell)] != 0; }
     /// Whether evaluate() knows the values there: of a mapped cell, or at a node.
@@ -104,7 +114,24 @@ public:
     /// Nodes of a mapped cell, and its shape functions at the point, each rounded once; none if they are not found.
     mesh::CellMaps::Nodes weights(Mesh::Index cell, const double* point, double* out) const;
 
+    // Of points outside, whose nearest point is on a side (nearest_side.hpp).
+
+    /// As evaluate(), at that point. NaN where a value at a node of the side is not finite.
+    core::isoparametric::Evaluated evaluate_on_side(PointOnSide& on, const std::vector<const Field*>& fields,
+                                                    Scratch& scratch, double* out) const;
+    /// The function of the cell at the point itself: its map is continued from the nearest point, if it is proved to be
+    /// one to one in a box of reference coordinates that has both; else nothing is found.
+    core::isoparametric::Evaluated evaluate_beyond(Mesh::Index cell, const PointOnSide& on, const double* point,
+                                                   const std::vector<const Field*>& fields, Scratch& scratch,
+                                                   double* out) const;
+    /// The weights of both, each rounded once. Where nothing is found beyond, those on the side.
+    mesh::CellMaps::Nodes weights_on_side(PointOnSide& on, double* out) const;
+    mesh::CellMaps::Nodes weights_beyond(Mesh::Index cell, PointOnSide& on, const double* point, double* out) const;
+
 private:
+    /// Values of all components at nodes, one node after the other. Returns how many components there are.
+    static std::size_t gather(std::span<const Mesh::Index> nodes, const std::vector<const Field*>& fields,
+                              Scratch& scratch);
     struct Warped {
         Mesh::Index whole;
         std::uint8_t sides;  ///< a bit for each that is not flat
@@ -172,6 +199,7 @@ private:
     std::vector<Mesh::Index> curved_;  ///< wholes
     std::unique_ptr<index::BoxTree> curved_tree_;
     Lazy<NodeTable> nodes_;
+    Lazy<MapBoundary> boundary_;
     std::uint64_t unproved_ = 0;
 };
 

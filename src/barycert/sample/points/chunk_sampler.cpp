@@ -2,6 +2,7 @@
 
 #include "barycert/base/finite.hpp"
 #include "barycert/core/blocks.hpp"
+#include "barycert/locate/mapped/nearest_side.hpp"
 #include "barycert/sample/points/near_piece.hpp"
 #include "barycert/sample/quantity/quantities.hpp"
 
@@ -319,9 +320,14 @@ locate::Place ChunkSampler::outside(const locate::PointRecord& point) {
     }
     const bool snap = options_.outside.kind == Outside::nearest;
     const double limit = snap ? options_.outside.limit : std::numeric_limits<double>::infinity();
-    Nearest nearest;
-    if (base::all_finite({point.at.data(), data_.index().dimension()}))
+    locate::NearestInMaps in_maps;
+    Nearest& nearest = in_maps.nearest;
+    const bool finite = base::all_finite({point.at.data(), data_.index().dimension()});
+    if (finite && data_.located().mapped != nullptr) {
+        in_maps = locate::nearest_in_maps(data_.located(), point.at.data(), limit);
+    } else if (finite) {
         nearest = *data_.locator->nearest(point.at.data(), limit);
+    }
     double& distance = rows_.distances[point.number];
     if (nearest.cell < 0) {
         distance = std::numeric_limits<double>::quiet_NaN();
@@ -331,9 +337,40 @@ locate::Place ChunkSampler::outside(const locate::PointRecord& point) {
     distance = nearest.distance;
     ++(snap ? counts_.snapped : counts_.extrapolated);
     counts_.farthest = std::max(counts_.farthest, distance);
+    counts_.undecided += in_maps.off != 0 ? 1 : 0;
+    counts_.max_off = std::max(counts_.max_off, in_maps.off);
+    if (in_maps.on) {
+        outside_maps(point, in_maps);
+        return -1;
+    }
     if (!snap) return data_.located().places()[static_cast<std::size_t>(nearest.cell)];
     snapped_values(data_, options_.rounding, nearest, point.at, row(point), counts_.values);
     return -1;
+}
+
+void ChunkSampler::outside_maps(const locate::PointRecord& point, const locate::NearestInMaps& nearest) {
+    using core::isoparametric::Certainty, core::isoparametric::Evaluated;
+    const locate::MappedCells& mapped = *data_.located().mapped;
+    double* const values = row(point);
+    if (data_.point_components != 0) {
+        Evaluated found;
+        const bool beyond = options_.outside.kind == Outside::extrapolate;
+        if (beyond)
+            found = mapped.evaluate_beyond(nearest.nearest.cell, *nearest.on, point.at.data(), data_.point_fields,
+                                           scratch_, values);
+        if (found.certainty == Certainty::not_found) {
+            counts_.unmapped += beyond ? 1 : 0;
+            found = mapped.evaluate_on_side(*nearest.on, data_.point_fields, scratch_, values);
+        }
+        // The distance of a point that is undecided was counted before.
+        counts_.undecided += found.certainty == Certainty::undecided && nearest.off == 0 ? 1 : 0;
+        counts_.max_off = std::max(counts_.max_off, found.off);
+        counts_.values.add(found.tier);
+        const bool nan = std::any_of(values, values + data_.point_components, [](double x) { return std::isnan(x); });
+        counts_.values.not_finite += nan ? 1 : 0;
+    }
+    // There are no gradients where cells have maps: the point is not read.
+    set_rest_of_row(data_, options_.rounding, nearest.nearest.cell, point.at.data(), values);
 }
 
 void ChunkSampler::leave_out(std::uint64_t count, std::uint32_t number) {

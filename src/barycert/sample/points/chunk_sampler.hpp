@@ -4,6 +4,10 @@
 #include "barycert/locate/finder.hpp"
 #include "barycert/sample/points/sampler_data.hpp"
 
+namespace barycert::locate {
+struct NearestInMaps;
+}
+
 namespace barycert::sample {
 
 inline bool gives_distances(const OutsidePolicy& policy) {
@@ -94,6 +98,8 @@ private:
     /// Sets the values of a point outside, and its distance if the policy gives some; or returns the nearest cell,
     /// whose function is to be evaluated there.
     locate::Place outside(const locate::PointRecord& point);
+    /// Of one whose nearest point is that of a cell with a map.
+    void outside_maps(const locate::PointRecord& point, const locate::NearestInMaps& nearest);
     void interpolate_linear(const locate::PointRecord* points, std::size_t count);
     void interpolate_exactly(const locate::PointRecord& point, locate::Place cell);
     void mend_plain(const locate::PointRecord& point, locate::Place cell);

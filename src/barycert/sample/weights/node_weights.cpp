@@ -3,6 +3,7 @@
 #include "barycert/base/finite.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/locate/batch.hpp"
+#include "barycert/locate/mapped/nearest_side.hpp"
 #include "barycert/sample/points/near_piece.hpp"
 
 namespace barycert {
@@ -25,8 +26,9 @@ public:
         }
         const std::size_t step = mapped_ == nullptr ? chunk : 1;
         for (std::size_t first = 0; first < rows_.cells.size(); first += step) {
-            const bool whole =
-                mapped_ != nullptr && mapped_->evaluates(rows_.cells[first], rows_.points.data() + d_ * first);
+            const double* const point = rows_.points.data() + d_ * first;
+            if (mapped_ != nullptr && rows_.cells[first] < 0 && add_outside_maps(point)) continue;
+            const bool whole = mapped_ != nullptr && mapped_->evaluates(rows_.cells[first], point);
             Status done = whole ? add_mapped(first) : add(first, std::min(first + step, rows_.cells.size()));
             if (!done) return done.error();
         }
@@ -46,7 +48,7 @@ private:
             Mesh::Index cell = rows_.cells[i];
             // What is extrapolated is the function of the nearest cell.
             if (cell < 0 && outside_.kind == Outside::extrapolate && base::all_finite({point, d_}))
-                cell = locator_.nearest(point, std::numeric_limits<double>::infinity())->cell;
+                cell = nearest(point, std::numeric_limits<double>::infinity()).cell;
             owners_.push_back(cell);
             if (cell < 0) continue;
             cells_.push_back(cell);
@@ -81,6 +83,26 @@ private:
         return Done{};
     }
 
+    /// That of a cell with straight sides, where some have maps.
+    Nearest nearest(const double* point, double limit) const {
+        if (mapped_ == nullptr) return *locator_.nearest(point, limit);
+        return locate::nearest_in_maps(locate::LocatorData::of(locator_), point, limit).nearest;
+    }
+
+    /// Of a point outside, if its nearest one is that of a cell with a map.
+    bool add_outside_maps(const double* point) {
+        const bool beyond = outside_.kind == Outside::extrapolate;
+        if ((!beyond && outside_.kind != Outside::nearest) || !base::all_finite({point, d_})) return false;
+        const double limit = beyond ? std::numeric_limits<double>::infinity() : outside_.limit;
+        const locate::NearestInMaps found = locate::nearest_in_maps(locate::LocatorData::of(locator_), point, limit);
+        if (!found.on) return false;
+        std::array<double, max_nodes_of_cell> weights{};
+        const auto nodes = beyond ? mapped_->weights_beyond(found.nearest.cell, *found.on, point, weights.data())
+                                  : mapped_->weights_on_side(*found.on, weights.data());
+        add_row(nodes.at.data(), weights.data(), nodes.count);
+        return true;
+    }
+
     Status second_order(TierCounts& tiers) {
         const std::size_t count = cells_.size();
         places_.assign(d_ * nodes_ * count, 0);
@@ -98,7 +120,7 @@ private:
     void add_outside(const double* point) {
         Nearest nearest;
         if (outside_.kind == Outside::nearest && base::all_finite({point, d_}))
-            nearest = *locator_.nearest(point, outside_.limit);
+            nearest = this->nearest(point, outside_.limit);
         const locate::NearFeature feature = locate::near_feature(nearest.nodes, mesh_.points, d_);
         std::array<double, 3> at{};
         std::copy_n(point, d_, at.begin());
