@@ -3,6 +3,9 @@
 # for, and the exact core answers the same, whatever the least processor is.
 #
 # processors.sh SOURCE_DIR BUILD_DIR [PROCESSOR...]     x86-64-v2, -v3, -v4 and native unless given; 77 elsewhere
+#
+# The first two have all targets of Highway above the least processor. The others have the one of that processor: what is
+# above it is compiled for by the first two.
 set -u
 source=$1
 build=$2
@@ -48,12 +51,14 @@ for file in $sources; do
 done
 
 for processor in "$@"; do
+    targets=
+    case $processor in x86-64-v4 | native) targets=-DHWY_COMPILE_ONLY_STATIC ;; esac
     objects=
     for file in $(core_sources "$source" "$build"); do
         object=$build/$processor-$(basename "$file" .cpp).o
         rm -f "$object"
         # shellcheck disable=SC2086
-        $launcher g++ $flags -O1 -march="$processor" -DBARYCERT_VERSION='"x"' -I"$source/src" -I"$source/tests" \
+        $launcher g++ $flags $targets -O1 -march="$processor" -DBARYCERT_VERSION='"x"' -I"$source/src" -I"$source/tests" \
             -c "$file" -o "$object" &
         objects="$objects $object"
     done
