@@ -250,7 +250,7 @@ TEST_F(Converted, ZonesOfSu2) {
     }
 }
 
-TEST_F(Converted, GeometriesOfKratos) {
+TEST_F(Converted, ElementsAndGeometriesOfKratos) {
     const std::string nodes = "Begin Nodes\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\nEnd Nodes\n";
     const std::string geometries = "Begin Geometries Tetrahedra3D4 // all\n1 1 2 3 4\nEnd Geometries\n";
     scratch_.put("a.mdpa", nodes + geometries);
@@ -261,6 +261,13 @@ TEST_F(Converted, GeometriesOfKratos) {
     const Ended both = barycert({"check", "b.mdpa"});
     EXPECT_EQ(both.code, 0) << both.err;
     EXPECT_TRUE(contains(both.out, "geometries, beside the elements")) << both.out;
+    scratch_.put("s.mdpa",
+                 nodes +
+                     "Begin Elements ShellThinElement3D3N\n1 0 1 3 2\n2 0 1 2 4\n3 0 2 3 4\n4 0 3 1 4\nEnd Elements\n"
+                     "Begin Conditions LineCondition3D2N\n1 0 1 2\nEnd Conditions\n");
+    const Ended shell = barycert({"check", "s.mdpa"});
+    EXPECT_EQ(shell.code, 0) << shell.err;
+    EXPECT_TRUE(contains(shell.out, "4 triangles")) << shell.out;
     scratch_.put("c.mdpa", "Begin Nodes\n1 0 0 0\n3 1 0 0\n2 0 1 0\n4 0 0 1\nEnd Nodes\n" + geometries);
     const Ended order = barycert({"check", "c.mdpa"});
     EXPECT_EQ(order.code, 2);

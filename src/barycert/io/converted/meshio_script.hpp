@@ -12,7 +12,7 @@ namespace barycert::io {
 inline constexpr const char* meshio_script = R"python(
 import sys
 sys.path = [p for p in sys.path if p]
-import json, os, resource, signal, threading
+import json, os, re, resource, signal, threading
 from xml.sax.saxutils import quoteattr
 
 # Threads of linear algebra would each reserve memory; lines of messages are not to be broken.
@@ -115,17 +115,34 @@ def check_su2(path):
         refuse("a mesh of SU2 in several zones", "one zone, whose cells have its nodes", "%s zones" % (
             announced[0] if announced else zones), "write each zone to a file of its own, without NZONE and IZONE")
 
-def mdpa_of_geometries(path):
-    "Another path where the cells are geometries of Kratos, of which meshio knows nothing: as its elements."
+def shape_of_kratos(block, name):
+    "Of SmallDisplacementElement3D4N the name that meshio knows, Tetrahedra3D4; of others nothing."
+    found = re.search(r"([23])D([0-9]+)N", name)
+    if not found:
+        return None
+    surfaces = "1 Point 2 Line 3 Triangle 4 Quadrilateral 6 Triangle 8 Quadrilateral 9 Quadrilateral"
+    lines = "1 Point 2 Line 3 Line"
+    solids = "2 Line 3 Triangle 4 Tetrahedra 6 Prism 8 Hexahedra 10 Tetrahedra 20 Hexahedra 27 Hexahedra"
+    thin = block == "Conditions" or re.search("Shell|Membrane|Surface", name)
+    words = ((lines if thin else surfaces) if found[1] == "2" else surfaces if thin else solids).split()
+    shape = dict(zip(words[::2], words[1::2])).get(found[2])
+    return shape and "%s%sD%s" % (shape, found[1], found[2])
+
+def mdpa_for_meshio(path):
+    "Another path, to what meshio understands: it knows few names of elements, and no geometries, of Kratos."
     with open(path, errors="replace") as file:
         lines = file.read().splitlines()
     inside, out, wrong, count = "", [], None, 0
     has_elements = any(line.split()[:2] in (["Begin", "Elements"], ["Begin", "Conditions"]) for line in lines)
-    geometries = any(line.split()[:2] == ["Begin", "Geometries"] for line in lines)
+    if has_elements and any(line.split()[:2] == ["Begin", "Geometries"] for line in lines):
+        lost.append("geometries, beside the elements and conditions")
     for line in lines:
         words = line.split("//")[0].split()
         if words[:1] == ["Begin"] and len(words) > 1:
             inside = words[1]
+            shape = shape_of_kratos(inside, words[2]) if len(words) > 2 else None
+            if inside in ("Elements", "Conditions") and shape:
+                line = "Begin %s %s" % (inside, shape)
         elif words[:1] == ["End"]:
             inside = ""
         elif inside == "Nodes" and words:
@@ -133,14 +150,12 @@ def mdpa_of_geometries(path):
             wrong = wrong or (None if words[0] == str(count) else (words[0], count))
         elif inside == "Geometries" and words:
             line = " ".join([words[0], "0"] + words[1:])
-        out.append(line.replace("Geometries", "Elements", 1) if words[1:2] == ["Geometries"] else line)
+        if words[1:2] == ["Geometries"] and not has_elements:
+            line = line.replace("Geometries", "Elements", 1)
+        out.append(line)
     if wrong:
         refuse("the numbers of nodes", "1, 2, 3 and so on, by which cells refer to them in meshio",
                "node %s in place of %d" % wrong, "number the nodes in their order")
-    if geometries and has_elements:
-        lost.append("geometries, beside the elements and conditions")
-    if has_elements or not geometries:
-        return path
     number = os.memfd_create("barycert-mdpa")
     with open(number, "w", closefd=False) as file:
         file.write("\n".join(out) + "\n")
@@ -217,7 +232,7 @@ try:
     if kind == "su2":
         check_su2(path)
     if kind == "mdpa":
-        path = mdpa_of_geometries(path)
+        path = mdpa_for_meshio(path)
     sys.addaudithook(opened)
     with os.fdopen(3, "wb") as file:
         read = write(file, meshio.read(path, file_format=kind))

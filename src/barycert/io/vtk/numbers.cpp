@@ -85,7 +85,7 @@ bool read_word(std::string_view word, From& value) {
         value = number.value_or(0);
         return number.has_value();
     } else {
-        if (word.starts_with('+')) word.remove_prefix(1);
+        word = without_plus(word);
         const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
         if constexpr (std::is_same_v<From, float>) {
             // Too small for a float: zero or the least of them, which the double rounds to.
