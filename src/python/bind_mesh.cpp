@@ -97,8 +97,10 @@ py::list notes_of(const MeshObject& mesh) {
 
 py::dict curved_of(const MeshObject& object) {
     const CurvedCells c = curved_cells(object.mesh(), nullptr, object.geometry()->options.curved == Curved::exact);
-    return py::dict("cells"_a = c.cells, "max_deviation"_a = c.max_deviation, "rounded_cells"_a = c.rounded_cells,
-                    "max_rounded"_a = c.max_rounded, "by_corners"_a = c.by_corners);
+    py::dict all("cells"_a = c.cells, "max_deviation"_a = c.max_deviation, "rounded_cells"_a = c.rounded_cells,
+                 "max_rounded"_a = c.max_rounded);
+    if (c.by_corners != 0) all["by_corners"] = c.by_corners;
+    return all;
 }
 
 /// How points are located in cells that are no straight simplices: before anything is. Returns what to warn of: empty

@@ -166,7 +166,7 @@ def test_curved_cells_are_told_or_refused(tmp_path, recwarn):
     points = np.array([[0, 0], [4, 0], [0, 4], [2, 0], [2, 2], [0, 2]], dtype=float)
     cells = [[0, 1, 2, 3, 4, 5]]
     straight = barycert.Mesh(points, cells, curved="refuse")
-    assert straight.curved == {"cells": 0, "max_deviation": 0, "rounded_cells": 0, "max_rounded": 0, "by_corners": 0}
+    assert straight.curved == {"cells": 0, "max_deviation": 0, "rounded_cells": 0, "max_rounded": 0}
     assert not recwarn.list
     points[4] += 0.5
     with pytest.warns(UserWarning, match="1 cell is curved: mid-edge nodes lie up to 0.1") as told:

@@ -259,7 +259,8 @@ class Mesh(GivenBack):
         """How far sides are from straight ones, of which `check` speaks: `cells`, how many have a mid-edge node off the
         middle of its edge; `max_deviation`, the largest distance from it in parts of the edge's length; `rounded_cells`
         and `max_rounded`, the same of those where rounding of coordinates explains it, whose nodes count as middles;
-        `by_corners`, how many cells of a higher order are taken by their corners. All 0 for linear cells."""
+        `by_corners`, if there are such, how many cells of a higher order are taken by their corners. All 0 for linear
+        cells."""
         return self._core.curved()
 
     @property

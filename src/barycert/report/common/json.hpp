@@ -89,7 +89,11 @@ namespace barycert {
 JSON_OF(Environment, version, rounding, flush_to_zero, contraction, excess_precision, simd, fma, compiler,
         hardware_threads)
 JSON_OF(Note, kind, text, file)
-JSON_OF(CurvedCells, cells, max_deviation, rounded_cells, max_rounded, by_corners, mapped)
+
+inline void to_json(report::Json& record, const CurvedCells& c) {
+    report::put(record, MEMBERS(c, cells, max_deviation, rounded_cells, max_rounded, mapped));
+    if (c.by_corners != 0) report::put(record, MEMBERS(c, by_corners));
+}
 
 inline void to_json(report::Json& record, const NotFinite& f) {
     report::put(record, MEMBERS(f, field), "of", f.of_cells ? "cells" : "nodes", MEMBERS(f, count, values));
