@@ -53,9 +53,9 @@ enum class Outside : std::uint8_t {
     error,    ///< the call returns an Error that names the first such point
     fill,     ///< OutsidePolicy::fill
     nearest,  ///< point fields at the nearest point of the mesh, cell fields of its cell
-    /// The function of the nearest cell, evaluated where the point is. Of a cell with a map (Locator) it is continued
-    /// from the nearest point if the map is proved to be one to one in a box that has both in reference coordinates;
-    /// else the point has the value of `nearest`, and is counted (SampleCounts::unmapped).
+    /// The function of the nearest cell, evaluated where the point is. Of a cell with a map (Locator) its inverse is
+    /// continued along the straight way from the nearest point. Where it is not proved that it can be, the point has
+    /// the value of `nearest`, and is counted (SampleCounts::unmapped).
     extrapolate,
 };
 

@@ -231,7 +231,7 @@ TEST_F(NearestInMaps, CellsOfHigherOrderBentBothWays) {
                     for (std::size_t k = 1; k < index.size(); ++k)
                         mesh.points.push_back(static_cast<double>(index[k]) / order + uniform(-0.1, 0.1) / (order - 1));
                 }
-                add_shape(mesh, d == 2 ? 69 : 71, nodes);
+                add_shape(mesh, static_cast<std::uint8_t>(d == 2 ? 69 : 71), nodes);
                 cut(mesh);
                 add_field(mesh);
                 outside += expect_as_judged(mesh, order, points_around(mesh, d == 2 ? 30 : 8, 0.3),

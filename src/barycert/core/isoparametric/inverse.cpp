@@ -69,6 +69,24 @@ Evaluated evaluate_at(const Reference& of, const Places& places, const double* p
     return result;
 }
 
+/// Places on the straight way from what x is taken to, about, to the point: by the part of the way.
+auto way_from(const Reference& of, const Places& places, const Vector<double>& x, const double* point) {
+    std::array<double, max_nodes> n;
+    shape_functions(of, x, n, nullptr);
+    Vector<double> from{};
+    for (std::size_t k = 0; k < of.dimension(); ++k) {
+        for (std::size_t i = 0; i < of.nodes; ++i) {
+            const double share = n[i] / of.scale, *const other = places.other[i];
+            from[k] += other == nullptr ? share * places.at[i][k] : share / 2 * places.at[i][k] + share / 2 * other[k];
+        }
+    }
+    return [=, dimension = of.dimension()](double part) {
+        Vector<double> at{};
+        for (std::size_t k = 0; k < dimension; ++k) at[k] = from[k] * (1 - part) + point[k] * part;
+        return at;
+    };
+}
+
 }  // namespace
 
 Evaluated evaluate(const Reference& of, const Places& places, const double* point, std::uint64_t active,
@@ -80,8 +98,24 @@ Evaluated evaluate(const Reference& of, const Places& places, const double* poin
 Evaluated evaluate_beyond(const Reference& of, const Places& places, const double* point,
                           const std::array<double, 3>& from, const double* values, std::size_t components,
                           double* out) {
+    std::array<double, 3> x = from;
+    const auto way = way_from(of, places, from, point);
+    double done = 0, step = 1;
+    for (int tries = 0; tries < 200 && done < 1; ++tries) {
+        const double next = std::min(1.0, done + step);
+        const Vector<double> at = way(next);
+        Inverse inverse(of, places, next == 1 ? point : at.data());
+        if (inverse.search_from(x)) {
+            x = inverse.found();
+            done = next;
+            step *= 2;
+        } else if ((step /= 2) < 0x1p-7) {
+            return {};
+        }
+    }
+    if (done < 1) return {};
     return evaluate_at(of, places, point, ~std::uint64_t{0}, values, components, out, true,
-                       [&](Inverse& inverse) { return inverse.search_from(from); });
+                       [&](Inverse& inverse) { return inverse.search_from(x); });
 }
 
 }  // namespace barycert::core::isoparametric

@@ -34,8 +34,9 @@ struct Evaluated {
 Evaluated evaluate(const Reference& reference, const Places& places, const double* point, std::uint64_t active,
                    const double* values, std::size_t components, double* out);
 
-/// The same where the map is continued beyond the cell: at the x that is taken to `point`, if the map is proved to be
-/// one to one in a box that has x and `from`, a place of the reference cell. Else nothing is found.
+/// The same where the inverse of the map is continued beyond the cell: along the straight way to `point` from what
+/// `from`, a place of the reference cell, is taken to, in up to some hundred steps. Nothing is found where it is not
+/// proved that it can be, as where the Jacobian vanishes on the way.
 Evaluated evaluate_beyond(const Reference& reference, const Places& places, const double* point,
                           const std::array<double, 3>& from, const double* values, std::size_t components, double* out);
 

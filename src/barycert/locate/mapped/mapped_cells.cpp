@@ -1,6 +1,7 @@
 #include "barycert/locate/mapped/mapped_cells.hpp"
 
 #include "barycert/base/finite.hpp"
+#include "barycert/locate/mapped/boundary.hpp"
 #include "barycert/mesh/adjacency.hpp"
 #include "barycert/mesh/mid_edges.hpp"
 #include "barycert/mesh/pulling.hpp"
@@ -34,6 +35,12 @@ MappedCells::MappedCells(const Mesh& mesh, bool products, Curved curved)
     if (products_) find_sides();
     find_curves();
     curves_ = !curved_.empty();
+}
+
+MappedCells::~MappedCells() = default;
+
+const MapBoundary& MappedCells::boundary() const {
+    return boundary_.get([&] { return MapBoundary(mesh_, maps_, sign_); });
 }
 
 std::size_t MappedCells::bytes() const {

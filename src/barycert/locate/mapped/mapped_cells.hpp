@@ -24,7 +24,6 @@
 #include "barycert/index/box_tree.hpp"
 #include "barycert/locate/lanes.hpp"
 #include "barycert/locate/lazy.hpp"
-#include "barycert/locate/mapped/boundary.hpp"
 #include "barycert/locator.hpp"
 #include "barycert/mesh/cell_maps.hpp"
 #include "barycert/mesh/warped_sides.hpp"
@@ -32,10 +31,13 @@
 
 namespace barycert::locate {
 
+class MapBoundary;
 struct PointOnSide;
 
 class MappedCells {
 public:
+    ~MappedCells();
+
     /// Sets all cells that hold a point, as straight simplices or by their parts.
     using AllInParts = std::function<void(std::vector<Location>&)>;
 
@@ -54,9 +56,7 @@ public:
     std::size_t bytes() const;
 
     /// Where points outside have their nearest ones.
-    const MapBoundary& boundary() const {
-        return boundary_.get([&] { return MapBoundary(mesh_, maps_, sign_); });
-    }
+    const MapBoundary& boundary() const;
     /// The cell that stands for a whole one.
     Mesh::Index first_cell(Mesh::Index whole) const { return first_part(static_cast<std::size_t>(whole)); }
 
@@ -119,8 +119,8 @@ public:
     /// As evaluate(), at that point. NaN where a value at a node of the side is not finite.
     core::isoparametric::Evaluated evaluate_on_side(PointOnSide& on, const std::vector<const Field*>& fields,
                                                     Scratch& scratch, double* out) const;
-    /// The function of the cell at the point itself: its map is continued from the nearest point, if it is proved to be
-    /// one to one in a box of reference coordinates that has both; else nothing is found.
+    /// The function of the cell at the point itself, the inverse of its map continued from the nearest point
+    /// (core/isoparametric/inverse.hpp).
     core::isoparametric::Evaluated evaluate_beyond(Mesh::Index cell, const PointOnSide& on, const double* point,
                                                    const std::vector<const Field*>& fields, Scratch& scratch,
                                                    double* out) const;
