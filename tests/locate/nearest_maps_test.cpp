@@ -255,13 +255,14 @@ TEST_F(NearestInMaps, BallsOfSecondOrder) {
 }
 
 TEST_F(NearestInMaps, WarpedCellsOfAllTypes) {
-    for (const std::uint8_t type : {9, 12, 13, 14}) {
+    for (const int number : {9, 12, 13, 14}) {
+        const auto type = static_cast<std::uint8_t>(number);
         std::size_t outside = 0;
         for (int round = 0; round < 6; ++round) {
             Mesh mesh;
             mesh.dimension = type == 9 ? 2 : 3;
             std::vector<Index> nodes;
-            for (const auto& place : reference_corners(type == 9 ? 12 : type)) {
+            for (const auto& place : reference_corners(static_cast<std::uint8_t>(type == 9 ? 12 : type))) {
                 if (type == 9 && nodes.size() == 4) break;
                 nodes.push_back(static_cast<Index>(nodes.size()));
                 for (std::size_t k = 0; k < (type == 9 ? 2U : 3U); ++k)
