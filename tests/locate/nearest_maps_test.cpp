@@ -339,6 +339,26 @@ TEST_F(NearestInMaps, WhatIsExtrapolatedGoesOnFromTheBoundary) {
     }
 }
 
+TEST_F(NearestInMaps, AffineCellsAreContinuedEverywhere) {
+    Mesh mesh;
+    std::vector<Index> nodes;
+    for (const auto& place : reference_corners(12)) {
+        nodes.push_back(static_cast<Index>(nodes.size()));
+        for (const Real x : place) mesh.points.push_back(static_cast<double>(x));
+    }
+    add_shape(mesh, 12, nodes);
+    cut(mesh);
+    mesh.point_fields = {{"f", 1, {1, 2, 3, 4, 5, 6, 7, 8}}};
+    const Sampler sampler =
+        Sampler::build(mesh, {}, {.interpolation = CellInterpolation::multilinear, .progress = {}}).value();
+    const std::vector<double> points{5, 6, 7, -300, 2, 0.5};
+    const Table rows = sampler.sample(points, {.outside = {Outside::extrapolate}}).value();
+    // 1 + r + 3 s - 2 r s + 4 t
+    EXPECT_EQ(rows.values[0], 1 + 5 + 18 - 60 + 28);
+    EXPECT_EQ(rows.values[1], 1 - 300 + 6 + 1200 + 2);
+    EXPECT_EQ(rows.counts.unmapped, 0U);
+}
+
 TEST_F(NearestInMaps, WeightsGiveTheValues) {
     Mesh mesh = testing::curved_ball(3, 0.4);
     add_field(mesh);

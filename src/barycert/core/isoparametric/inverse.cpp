@@ -44,7 +44,6 @@ Evaluated evaluate_at(const Reference& of, const Places& places, const double* p
     Vector<double> about{};
     const bool found = search(inverse) && values_in<TwoDoubles>(of, inverse, beyond, all, 0x1p-88, open, out, &about);
     if (found && !left()) return {Certainty::proved, Tier::double_double};
-    if (beyond && !found) return {};
     if (const auto x = inverse.exactly(about)) {
         std::array<Rational, max_nodes> n;
         shape_functions(of, *x, n, nullptr);
@@ -98,10 +97,11 @@ Evaluated evaluate(const Reference& of, const Places& places, const double* poin
 Evaluated evaluate_beyond(const Reference& of, const Places& places, const double* point,
                           const std::array<double, 3>& from, const double* values, std::size_t components,
                           double* out) {
-    // An affine map is one to one everywhere. What is told of no other: these numbers have more than 30 bits.
+    // An affine map is one to one everywhere, and all is rational. Of no other is that told here: 0.1 has too many
+    // bits.
     if (Inverse(of, places, point).exactly({0.1, 0.1, 0.1}))
         return evaluate_at(of, places, point, ~std::uint64_t{0}, values, components, out, true,
-                           [](Inverse& inverse) { return inverse.search(true); });
+                           [](Inverse&) { return false; });
     std::array<double, 3> x = from;
     const auto way = way_from(of, places, from, point);
     double done = 0, step = 1;
