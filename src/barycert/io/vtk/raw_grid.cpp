@@ -312,7 +312,7 @@ void join_pieces(RawGrid& grid, const std::string& path) {
         }
         return note(Note::Kind::guessed, shared, "",
                     " nodes stand where another piece has one, and are kept apart: the file gives no GlobalNodeId, by "
-                    "which pieces could be joined");
+                    "which pieces could be joined; check --fix joins them");
     }
     first = first_of_each<double>(points, [&](std::size_t i) { return (*ids)[i]; });
     for (std::size_t i = 0; i < points; ++i) {
