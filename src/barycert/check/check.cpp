@@ -33,7 +33,13 @@ std::vector<CellContact> contacts(const Checked& c, std::vector<CellPair> overla
         for (CellPair& p : *list) std::ranges::sort(p);
         std::ranges::sort(*list);
         for (const CellPair& p : *list) {
-            if (std::ranges::find(pairs, p) == pairs.end() && pairs.size() < c.options.contacts) pairs.push_back(p);
+            // One of the parts of two cells: users know the cells.
+            const auto same_cells = [&](const CellPair& other) {
+                return std::ranges::equal(
+                    p, other, {}, [&](Mesh::Index part) { return c.mesh.cell_number(part); },
+                    [&](Mesh::Index part) { return c.mesh.cell_number(part); });
+            };
+            if (std::ranges::none_of(pairs, same_cells) && pairs.size() < c.options.contacts) pairs.push_back(p);
         }
     }
     std::vector<CellContact> all;

@@ -1,3 +1,4 @@
+#include <set>
 #include <tuple>
 
 #include "barycert/check/stages.hpp"
@@ -153,9 +154,13 @@ std::vector<CellPair> find_overlapping_cells(Checked& c) {
         d, items, [&](std::size_t i, std::size_t j) { return interiors_meet(d, items[i].at, items[j].at); },
         pair_limit);
     std::vector<CellPair> pairs;
+    std::set<CellPair> told;  // of cells as users know them, of which several parts may meet
     for (const auto& [i, j] : found.list) {
         pairs.push_back({cells[i], cells[j]});
-        c.defects.add_marked(DefectKind::overlapping_cells, {.cells = pairs.back()});
+        c.defects.mark(cells[i], DefectKind::overlapping_cells);
+        c.defects.mark(cells[j], DefectKind::overlapping_cells);
+        if (told.insert({c.mesh.cell_number(cells[i]), c.mesh.cell_number(cells[j])}).second)
+            c.defects.add(DefectKind::overlapping_cells, {.cells = pairs.back()});
     }
     if (!found.complete) c.defects[DefectKind::overlapping_cells].at_least = true;
     return pairs;
