@@ -117,6 +117,7 @@ enum class DefectKind : std::uint8_t {
     facet_off_plane,
     misplaced_point,
     folded_cell,  ///< of Mesh::shapes
+    uncut_cell,   ///< of Mesh::shapes
 };
 
 struct DefectText {
@@ -129,7 +130,7 @@ struct DefectText {
     std::string_view one = {}, more = {};  ///< of those that do: what it means for the verdict, after its count
 };
 
-inline constexpr std::array<DefectText, 41> defect_texts{{
+inline constexpr std::array<DefectText, 42> defect_texts{{
     {DefectKind::bad_structure, "bad_structure", "P1", "arrays whose sizes are no whole number of nodes or cells",
      "give d coordinates per node and d + 1 vertices per cell", true, "array has a wrong size",
      "arrays have a wrong size"},
@@ -222,6 +223,9 @@ inline constexpr std::array<DefectText, 41> defect_texts{{
     {DefectKind::folded_cell, "folded_cell", "P2",
      "cells with parts that are turned both ways: warped too far, or folded",
      "move a node of the cell, or correct the order of its nodes", true, "cell is folded", "cells are folded"},
+    {DefectKind::uncut_cell, "uncut_cell", "P1", "cells that cannot be cut into simplices between their own nodes",
+     "correct the order of their nodes, or split them into convex cells", true, "cell cannot be cut",
+     "cells cannot be cut"},
 }};
 
 inline constexpr std::size_t defect_kind_count = defect_texts.size();
@@ -533,7 +537,7 @@ struct MergedNode {
 };
 struct DroppedCell {
     Mesh::Index cell = -1;
-    DefectKind why{};  ///< repeated_node, degenerate_cell or duplicate_cell
+    DefectKind why{};  ///< repeated_node, degenerate_cell, duplicate_cell or uncut_cell
 };
 struct MergedField {
     std::string name;

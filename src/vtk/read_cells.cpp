@@ -253,6 +253,8 @@ std::string read_cells(vtkDataSet& data, ExactIndex& index) {
     index.cells_are_cut = true;
     mesh.by_corners = index.by_corners;
     note(index, index.by_corners, " cells of a higher order: they are taken by their corners");
+    if (std::string uncut = mesh::told_uncut(mesh); !uncut.empty())
+        index.notes.push_back({Note::Kind::left_out, std::move(uncut), {}, true});
     return {};
 }
 

@@ -4,6 +4,7 @@
 #include "barycert/base/strict_math.hpp"
 #include "barycert/base/vectors.hpp"
 #include "barycert/check/stages.hpp"
+#include "barycert/mesh/pulling.hpp"
 #include "barycert/weights.hpp"
 
 namespace barycert::check {
@@ -179,7 +180,7 @@ struct CellChecker {
             for (std::size_t j = 0; j < i; ++j) repeated = repeated || nodes[i] == nodes[j];
         }
         if (!is_finite) m.defects[cell] |= defect_bit(DefectKind::not_finite);
-        if (repeated) note(DefectKind::repeated_node, cell, part);
+        if (repeated) note(is_uncut(cell) ? DefectKind::uncut_cell : DefectKind::repeated_node, cell, part);
         return is_finite && !repeated;
     }
 
@@ -207,6 +208,12 @@ struct CellChecker {
         double vertices[12];
         for (int i = 0; i <= d; ++i) std::copy_n(p[i], d, vertices + i * d);
         m.condition[cell] = condition_number(d == 2 ? Simplex::triangle : Simplex::tetrahedron, vertices);
+    }
+
+    /// It stands for a cell of the file that cannot be cut.
+    bool is_uncut(std::size_t cell) const {
+        const std::vector<std::uint16_t>& inside = c.mesh.shapes.inside;
+        return cell < inside.size() && inside[cell] == mesh::uncut_part;
     }
 
     void note(DefectKind defect, std::size_t cell, CellPart& part, const char* detail = "") const {

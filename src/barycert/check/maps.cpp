@@ -138,7 +138,11 @@ std::optional<MapReport> check_maps(const Checked& c) {
         const auto* const reference = maps.reference(whole);
         if (reference == nullptr) return;
         mapped[whole] = 1;
-        signs[whole] = static_cast<std::int8_t>(iso::jacobian_sign(*reference, maps.places(whole)));
+        JacobianSign sign = iso::jacobian_sign(*reference, maps.places(whole));
+        // Files have wedges in both orders, and their parts are positive (mesh/pulling.cpp).
+        const bool wedge = !c.mesh.shapes.types.empty() && c.mesh.shapes.types[whole] == 13;
+        if (wedge && sign == JacobianSign::negative) sign = JacobianSign::positive;
+        signs[whole] = static_cast<std::int8_t>(sign);
     });
     MapReport report;
     std::vector<std::int8_t>& of_cells = c.report.measures.jacobian;

@@ -39,7 +39,8 @@ void check_nodes(Checked& c) {
     std::vector<std::uint8_t> used(c.mesh.point_count(), 0);
     mark_used(c.mesh.cells, used);
     const std::vector<std::uint8_t> vertex = used;
-    mark_used(c.mesh.mid_nodes, used);
+    for (const auto* const nodes : {&c.mesh.mid_nodes, &c.mesh.shapes.nodes, &c.mesh.shapes.rings})
+        mark_used(*nodes, used);
     c.finite = find_finite(c.mesh.points, c.mesh.dimension, used, c.defects);
     std::vector<Mesh::Index> nodes;
     nodes.reserve(used.size());

@@ -209,16 +209,21 @@ void note_by_corners(std::size_t cells, const std::string& path, Mesh& mesh) {
 
 void cut_into_simplices(Mesh& mesh, const std::string& path) {
     if (mesh.shapes.types.empty()) return;
-    if (const auto open = mesh::cut_into_simplices(mesh))
+    std::size_t otherwise = 0;
+    if (const auto open = mesh::cut_into_simplices(mesh, {}, &otherwise))
         refuse_file(path,
                     "the faces of cell " + std::to_string(mesh.cell_number(mesh.shapes.parts[*open])) +
                         " (from 0) do not close",
                     "each edge in two faces of the polyhedron", {}, "write the file again with all faces");
+    std::string how = ", each cell and face at its node of lowest number";
+    if (otherwise != 0) how += " that sees all of it, or between other nodes (" + std::to_string(otherwise) + " cells)";
     mesh.notes.push_back({Note::Kind::converted,
                           std::to_string(mesh.shapes.count()) + " cells are cut into " +
                               std::to_string(mesh.cell_count()) + (mesh.dimension == 3 ? " tetrahedra" : " triangles") +
-                              ", each cell and face at its node of lowest number",
+                              how,
                           path});
+    if (std::string uncut = mesh::told_uncut(mesh); !uncut.empty())
+        mesh.notes.push_back({Note::Kind::left_out, std::move(uncut), path, true});
 }
 
 void note_lost_names(const std::vector<std::string>& columns, const char* file, Notes& notes) {

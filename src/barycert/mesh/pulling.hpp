@@ -1,9 +1,11 @@
 /// Cells of other shapes cut into simplices, without new nodes.
 ///
-/// A polygon is cut from its node of lowest number to all edges that do not have it; a solid from its node of lowest
-/// number to the triangles, cut likewise, of all faces that do not have it. Of a convex cell these fill it: each point
-/// is seen from that node through one of the faces. Both cells at a face cut it alike, as its lowest node does not
-/// depend on the cell; a face that has the cell's lowest node is cut from it, as it is the lowest of that face, too.
+/// A face of a cell, or a polygon, is cut into triangles by a rule that depends on its nodes alone (face_cut.hpp); a
+/// solid from its node of lowest number that sees all triangles of its faces, and where there is none by a search
+/// (solid_cut.hpp). So both cells at a face cut it alike, all nodes of a cell are used, and its parts fill it, concave
+/// or not; of a convex one they are those at its node of lowest number ("pulling"). A cell that cannot be cut, because
+/// its faces are no simple polygons or because no tetrahedra between its own nodes are found, owns nothing, and is
+/// told.
 #pragma once
 
 #include <bit>
@@ -36,13 +38,26 @@ constexpr int simplex_order(int dimension, std::size_t nodes) {
     return 0;
 }
 
-/// Makes cells of mesh.shapes, which has all but `parts` and `inside`. Of parts with a node twice, where a cell has
-/// one, none is kept but the first where there are no others. Returns the first polyhedron whose faces do not close, if
-/// there is one: each edge must be one of two faces. Precondition: nodes in range, as many as the types have.
-std::optional<std::size_t> pull(Mesh& mesh);
+/// Makes cells of mesh.shapes, which has all but `parts` and `inside`. A cell that is flat, or cannot be cut,
+/// has one part, a degenerate one. `otherwise`, if given, gets how many are cut, but not at their lowest node and those
+/// of their faces. `numbers`: of each node, in place of its index, that by which nodes are ordered.
+/// Returns the first polyhedron whose faces do not close, if there is one: each edge must be one of two faces.
+/// Precondition: nodes in range, as many as the types have.
+std::optional<std::size_t> pull(Mesh& mesh, std::span<const Mesh::Index> numbers = {},
+                                std::size_t* otherwise = nullptr);
 
 /// The same; cell numbers, fields and labels have a row for each shape before, for each cell then.
-std::optional<std::size_t> cut_into_simplices(Mesh& mesh);
+std::optional<std::size_t> cut_into_simplices(Mesh& mesh, std::span<const Mesh::Index> numbers = {},
+                                              std::size_t* otherwise = nullptr);
+
+/// In Shapes::inside, the part that stands for a cell that cannot be cut: it is degenerate, so no point lies in it.
+inline constexpr std::uint16_t uncut_part = 0xffff;
+
+/// Those parts; ascending.
+std::vector<Mesh::Index> uncut_parts(const Mesh& mesh);
+
+/// Which cells cannot be cut, in words; empty if all can.
+std::string told_uncut(const Mesh& mesh);
 
 /// The shape that each cell is a part of; empty without shapes.
 std::vector<Mesh::Index> whole_of_parts(const Mesh& mesh);

@@ -167,15 +167,7 @@ std::optional<std::size_t> Piece::cut(const std::vector<std::int64_t>& numbers) 
     std::ranges::stable_sort(order, {}, [&](Mesh::Index i) { return numbers[static_cast<std::size_t>(i)]; });
     for (std::size_t i = 0; i < order.size(); ++i)
         rank[static_cast<std::size_t>(order[i])] = static_cast<Mesh::Index>(i);
-    const auto renumber = [&](const std::vector<Mesh::Index>& to) {
-        for (std::vector<Mesh::Index>* const nodes : {&mesh.cells, &mesh.shapes.nodes, &mesh.shapes.rings}) {
-            for (Mesh::Index& node : *nodes) node = to.empty() ? node : to[static_cast<std::size_t>(node)];
-        }
-    };
-    renumber(rank);
-    const std::optional<std::size_t> open = mesh::cut_into_simplices(mesh);
-    renumber(order);
-    return open;
+    return mesh::cut_into_simplices(mesh, rank);
 }
 
 Result<Shape> agree_on_shape(Exchange& exchange, const PieceFacts& mine) {
