@@ -8,6 +8,7 @@
 #include "barycert/mesh/consistency.hpp"
 #include "barycert/mesh/mid_edges.hpp"
 #include "barycert/mesh/part.hpp"
+#include "barycert/mesh/pulling.hpp"
 
 namespace barycert {
 namespace {
@@ -42,11 +43,12 @@ public:
         : old_(mesh), options_(options), report_(report), mesh_(mesh), same_(mesh.point_count()) {}
 
     Result<Mesh> run() {
-        mesh_.shapes = {};  // the copy has their parts
         if (options_.nodes && !merge_nodes())
             return Error{.what = "so large a distance would merge nodes throughout the mesh",
                          .found = base::shortest(options_.merge_within),
                          .remedy = "take one that is small beside the edges of the cells"};
+        cut_again();
+        mesh_.shapes = {};  // the copy has their parts
         renumber();
         if (options_.cells) drop_cells();
         if (options_.nodes || options_.cells) drop_faces();
@@ -107,6 +109,36 @@ private:
             for (std::size_t k = i; k < next; ++k) same_.join(at(all[i].mid), at(all[k].mid));
         }
     }
+
+    /// Cells of other shapes are those of the merged nodes, which may be other parts: they are cut at other nodes.
+    void cut_again() {
+        Mesh::Shapes& shapes = mesh_.shapes;
+        bool merged = false;
+        for (std::vector<Index>* const nodes : {&shapes.nodes, &shapes.rings}) {
+            for (Index& node : *nodes) {
+                const auto into = static_cast<Index>(same_.find(at(node)));
+                merged |= into != node;
+                node = into;
+            }
+        }
+        if (merged) {
+            Mesh rows = mesh::rows_of_wholes(mesh_);
+            mesh_.cell_fields = std::move(rows.cell_fields);
+            mesh_.cell_labels = std::move(rows.cell_labels);
+            mesh::keep_rows(mesh_.cell_numbers, 1, std::vector(shapes.parts.begin(), shapes.parts.end() - 1));
+            mesh_.neighbours.clear();
+            mesh::cut_into_simplices(mesh_);
+        }
+        wholes_ = mesh::whole_of_parts(mesh_);
+        uncut_ = mesh::uncut_parts(mesh_);
+    }
+
+    /// Nodes of a cell of the copy, or of the cell that it is a part of, as they were.
+    std::span<const Index> given_nodes(Index cell) const {
+        return wholes_.empty() ? old_.corners_of(at(cell)) : old_.shapes.nodes_of(at(wholes_[at(cell)]));
+    }
+    /// The cell of the mesh as it was, the first part of a shape.
+    Index given_cell(Index cell) const { return wholes_.empty() ? cell : old_.shapes.parts[at(wholes_[at(cell)])]; }
 
     void renew_neighbours() {
         if (mesh_.neighbours.empty()) return;
@@ -181,13 +213,15 @@ private:
             return std::ranges::binary_search(report_.merged, n, {}, &MergedNode::node);
         };
         const auto drop = [&](Index cell, DefectKind why) {
-            report_.dropped.push_back({cell, why});
-            report_.collapsed += std::ranges::any_of(old_.corners_of(at(cell)), is_merged) ? 1 : 0;
+            report_.dropped.push_back({given_cell(cell), why});
+            report_.collapsed += std::ranges::any_of(given_nodes(cell), is_merged) ? 1 : 0;
         };
         for (std::size_t cell = 0; cell < mesh_.cell_count(); ++cell) {
             const Nodes nodes = sorted_nodes(cell);
             const auto number = static_cast<Index>(cell);
-            if (std::ranges::adjacent_find(nodes) != nodes.end())
+            if (std::ranges::binary_search(uncut_, number))
+                drop(number, DefectKind::uncut_cell);
+            else if (std::ranges::adjacent_find(nodes) != nodes.end())
                 drop(number, DefectKind::repeated_node);
             else if (sign(cell) == 0)
                 drop(number, DefectKind::degenerate_cell);
@@ -263,6 +297,8 @@ private:
     const FixOptions& options_;
     FixReport& report_;
     Mesh mesh_;
+    std::vector<Index> wholes_;  ///< the shape of each cell; empty without shapes
+    std::vector<Index> uncut_;   ///< cells that stand for shapes that cannot be cut
     base::DisjointSets same_;
 };
 

@@ -185,7 +185,8 @@ std::vector<std::string> fix_sentences(const FixedMesh& fixed) {
     add(done.differing_markers, "merged node has another marker", "merged nodes have other markers",
         " than the node that is kept: those are left out");
     if (!done.dropped.empty()) {
-        constexpr std::array kinds{DefectKind::repeated_node, DefectKind::degenerate_cell, DefectKind::duplicate_cell};
+        constexpr std::array kinds{DefectKind::repeated_node, DefectKind::degenerate_cell, DefectKind::duplicate_cell,
+                                   DefectKind::uncut_cell};
         const std::string why = joined(kinds, ", ", [&](DefectKind kind) {
             const auto count = std::ranges::count(done.dropped, kind, &DroppedCell::why);
             return count == 0 ? "" : fmt::format("{} {}", count, defect_text(kind).name);
