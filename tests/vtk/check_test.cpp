@@ -294,10 +294,10 @@ TEST(Check, TakesCellsOfAllTypes) {
     grid->Modified();
     check->Update();
     EXPECT_FALSE(check->GetCertified());
-    const vtkIdType row = row_of(check->GetDefects(), "folded_cell");
+    const vtkIdType row = row_of(check->GetDefects(), "uncut_cell");
     ASSERT_GE(row, 0);
     EXPECT_EQ(text(check->GetDefects(), row, "places").find("cell 0"), 0U) << text(check->GetDefects(), row, "places");
-    EXPECT_EQ(cell_array(out, "folded_cell")->GetTuple1(0), 1);
+    EXPECT_EQ(cell_array(out, "uncut_cell")->GetTuple1(0), 1);
     EXPECT_EQ(cell_array(out, "orientation")->GetTuple1(0), 0);
 }
 
