@@ -95,7 +95,7 @@ TEST(SolidCut, FillsCellsOfOctreesWithAnySidesRefined) {
             const How how = expect_filled(cell, random_order(cell.places.size(), random), random);
             ++counts[static_cast<std::size_t>(how)];
             ASSERT_TRUE(edges != 0 || how != How::uncut) << "sides " << sides;
-            ASSERT_FALSE(testing::Test::HasFailure()) << "sides " << sides << ", edges " << edges;
+            ASSERT_FALSE(::testing::Test::HasFailure()) << "sides " << sides << ", edges " << edges;
         }
     }
     EXPECT_GT(counts[0], 100U);
