@@ -3,7 +3,7 @@
 // The one place where the formulas stand: the filter evaluates them in double, the middle tier in double-double, the
 // last tier in integers. Each caller bounds the error of its arithmetic by the depth and the terms of these formulas,
 // so a change here changes the constants in filter-inl.hpp, refinement-inl.hpp and predicates.cpp, and the widths in
-// exact_weights.cpp, integer.hpp and check/exact_volumes.cpp.
+// exact_weights.cpp, integer.hpp and index/exact_volumes.cpp.
 //
 // Notation. v_i the vertices, p the point, r_i = v_i - p; x: cross product; . : dot product.
 //   tetrahedron  n_0 = r_1.(r_2 x r_3), n_1 = -r_0.(r_2 x r_3), n_2 = r_3.(r_0 x r_1), n_3 = -r_2.(r_0 x r_1)
