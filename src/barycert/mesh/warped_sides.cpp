@@ -37,9 +37,9 @@ Ring in_order(const Ring& ring) {
     return {ring[low], ring[(low + step) % 4], ring[(low + 2) % 4], ring[(low + 3 * step) % 4]};
 }
 
-using Triangle = std::array<Index, 3>;
-struct HashOfTriangle {
-    std::size_t operator()(const Triangle& t) const {
+using SideTriangle = std::array<Index, 3>;
+struct HashOfSideTriangle {
+    std::size_t operator()(const SideTriangle& t) const {
         std::uint64_t hash = 0;
         for (const Index node : t) {
             hash = (hash ^ static_cast<std::uint32_t>(node)) * 0x9E3779B97F4A7C15U;
@@ -58,7 +58,7 @@ public:
             const Ring& ring = sides_[side].ring;
             for (std::size_t i = 0; i < 4; ++i) {
                 used_[static_cast<std::size_t>(ring[i])] = 1;
-                Triangle triangle{ring[i], ring[(i + 1) % 4], ring[(i + 2) % 4]};
+                SideTriangle triangle{ring[i], ring[(i + 1) % 4], ring[(i + 2) % 4]};
                 std::ranges::sort(triangle);
                 by_triangle_.emplace(triangle, side);
             }
@@ -71,7 +71,7 @@ public:
         base::parallel_for_each(mesh_.cell_count(), 4096, [&](std::size_t cell) {
             const std::span<const Index> corners = mesh_.corners_of(cell);
             for (std::size_t left_out = 0; left_out < corners.size(); ++left_out) {
-                Triangle facet{};
+                SideTriangle facet{};
                 std::size_t count = 0;
                 for (std::size_t i = 0; i < corners.size(); ++i) {
                     if (i != left_out && used_[static_cast<std::size_t>(corners[i])] != 0) facet[count++] = corners[i];
@@ -84,7 +84,7 @@ public:
     }
 
 private:
-    void look_at(Triangle facet, Index whole) {
+    void look_at(SideTriangle facet, Index whole) {
         std::ranges::sort(facet);
         const auto [begin, end] = by_triangle_.equal_range(facet);
         for (auto at = begin; at != end; ++at) {
@@ -99,7 +99,7 @@ private:
     const Mesh& mesh_;
     std::vector<SplitSide> sides_;
     std::vector<std::uint8_t> used_;  ///< nodes of such sides
-    std::unordered_multimap<Triangle, std::size_t, HashOfTriangle> by_triangle_;
+    std::unordered_multimap<SideTriangle, std::size_t, HashOfSideTriangle> by_triangle_;
 };
 
 }  // namespace
