@@ -124,7 +124,9 @@ TEST_P(AllCells, ProvedSignsHoldAtAllPoints) {
     }
     EXPECT_GT(proved, 5U);
     EXPECT_EQ(unknown, 0U);
-    if (GetParam() != 3) EXPECT_GT(changing, 0U);
+    if (GetParam() != 3) {
+        EXPECT_GT(changing, 0U);
+    }
 }
 INSTANTIATE_TEST_SUITE_P(, AllCells, testing::Range(0, 10));
 

@@ -18,7 +18,7 @@ CHECK = [
     ("delaunay.cpp", "const bool mutual = opposite(cell, p, i, node);", "const bool mutual = true;", "one apex in the other's sphere is taken for both"),
     ("facets.cpp", "apex(copy) > copy.highest", "apex(copy) >= copy.highest", "which facet tells of a duplicate"),
     ("measures.cpp", "(known.size() - 1) / 2", "known.size() / 2", "the upper median"),
-    ("nodes.cpp", "    mark_used(c.mesh.mid_nodes, used);\n", "", "nodes midway are used"),
+    ("nodes.cpp", "{&c.mesh.mid_nodes, &c.mesh.shapes.nodes, ", "{&c.mesh.shapes.nodes, ", "nodes midway are used"),
     ("fix.cpp", "if (mesh_.dimension == 3) std::swap(mid[2], mid[3]);", "", "mid-edge nodes of 02 and 03 that stay"),
     ("plc_facet.hpp", "p[k] / 2 - o[k] / 2, 1 - exponent_", "p[k] - o[k], -exponent_", "a difference that overflows"),
     ("plc_facet.hpp", "area_ += std::fabs(", "area_ -= std::fabs(", "the share of a facet below 0"),

@@ -121,6 +121,26 @@ bool take_literal(std::string_view& rest, Literal& out, int depth = 0) {
     return true;
 }
 
+/// Whether the list at the beginning has its end, whatever is in it.
+bool list_ends(std::string_view text) {
+    int depth = 0;
+    char quote = '\0';
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (quote != '\0' && c == '\\') {
+            ++i;
+        } else if (quote == '\0' && (c == '\'' || c == '"')) {
+            quote = c;
+        } else if (quote == c) {
+            quote = '\0';
+        } else if (quote == '\0' && (c == '[' || c == ']')) {
+            depth += c == '[' ? 1 : -1;
+            if (depth == 0) return true;
+        }
+    }
+    return false;
+}
+
 /// (5, 3) or (5,) or ().
 bool is_tuple(const Literal& literal) {
     return literal.kind == '(' && std::ranges::count(literal.items, '0', &Literal::kind) == std::ssize(literal.items);
@@ -194,7 +214,7 @@ NpyHeader parse_npy_text(std::string_view text, bool latin1, const std::string& 
         skip_blanks(rest);
         const std::string_view from = rest;
         const bool whole = good && take_literal(rest, value);
-        if (key.text == "descr" && value.kind == '[') {
+        if (key.text == "descr" && value.kind == '[' && (whole || list_ends(from))) {
             header.structured = true;
             if (!whole || !take_fields(value, header.fields, header.item_size, 0) || header.item_size == 0 ||
                 header.item_size > longest_npy_text << 10)
