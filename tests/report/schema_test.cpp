@@ -1,6 +1,7 @@
 // The JSON that is written and doc/json.md say the same, member by member, both ways.
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 
 #include <gtest/gtest.h>
@@ -48,6 +49,9 @@ void check_reports(Schema& schema) {
         test::cut(whole);
         schema.check("Check", Json::parse(check_json(checked(whole), "part", measure_environment())), "check");
     }
+    CheckReport by_corners = checked(own_mesh("bracket"));
+    by_corners.curved.by_corners = 1;
+    schema.check("Check", Json::parse(check_json(by_corners, "part", measure_environment())), "check");
     const Mesh apart = cracked_and_hanging();
     FixedMesh fixed{.file = "copy.vtu", .done = {}, .after = {}};
     fixed.after = checked(fix_mesh(apart, {}, fixed.done).value());
@@ -214,7 +218,12 @@ TEST(Schema, EveryMemberWrittenIsDocumented) {
 
 TEST(Schema, EveryMemberDocumentedIsWritten) {
     const Schema schema = schema_with_all_reports();
-    EXPECT_EQ(schema.seen, without_templates(schema.documented()));
+    const std::set<std::string> documented = without_templates(schema.documented());
+    std::vector<std::string> unseen, unnamed;
+    std::ranges::set_difference(documented, schema.seen, std::back_inserter(unseen));
+    std::ranges::set_difference(schema.seen, documented, std::back_inserter(unnamed));
+    EXPECT_EQ(unseen, std::vector<std::string>{});
+    EXPECT_EQ(unnamed, std::vector<std::string>{});
     EXPECT_GT(schema.seen.size(), 100U);
 }
 

@@ -132,7 +132,7 @@ bool sees_all(const NumberedNodes& nodes, const std::vector<NodeTriangle>& trian
 Parts cut_solid(const NumberedNodes& nodes, const std::vector<std::vector<Index>>& rings) {
     Parts parts;
     const SolidBoundary boundary(nodes, rings);
-    if (!boundary.is_cut()) return parts;
+    if (!boundary.is_cut() || boundary.triangles().empty()) return parts;
     std::vector<Index> own;
     for (const NodeTriangle& t : boundary.triangles()) own.insert(own.end(), t.begin(), t.end());
     std::ranges::sort(own, {}, [&](Index node) { return nodes.number(node); });

@@ -35,12 +35,19 @@ TEST(VtkShapes, WhatIsWrittenIsReadBack) {
 }
 
 /// A .vtu file of one piece, whose points are on the curve (i, i^2, i^3), with `more` in Cells.
+/// Points on a curve of which no four are in one plane. The ring 1 2 4 3 of a polyhedron is convex: 3 and 4 are
+/// exchanged.
+std::string on_curve(std::size_t i, bool flat, bool exchanged) {
+    const std::size_t at = exchanged && (i == 3 || i == 4) ? 7 - i : i;
+    return std::to_string(at) + " " + std::to_string(at * at) + " " + std::to_string(flat ? 0 : at * at * at) + "\n";
+}
+
 std::string cells_file(std::size_t points, const std::string& types, const std::string& offsets,
                        const std::string& connectivity, const std::string& more = "", const std::string& data = "",
                        bool flat = false) {
     std::string places;
-    for (std::size_t i = 0; i < points; ++i)
-        places += std::to_string(i) + " " + std::to_string(i * i) + " " + std::to_string(flat ? 0 : i * i * i) + "\n";
+    const bool polyhedra = types.find("42") != std::string::npos;
+    for (std::size_t i = 0; i < points; ++i) places += on_curve(i, flat, polyhedra);
     std::string offsets_left = offsets;
     const auto count = std::ranges::count(offsets_left, ' ') + 1;
     const auto array = [](const std::string& name, const std::string& numbers) {
@@ -174,8 +181,7 @@ std::string faces_of(const std::string& faces, const std::string& offsets) {
 Texts polyhedron_files(const std::string& stream) {
     const std::string count = std::to_string(stream.empty() ? 0 : std::ranges::count(stream, ' ') + 1);
     std::string legacy = "# vtk DataFile Version 4.2\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 5 double\n";
-    for (std::size_t i = 0; i < 5; ++i)
-        legacy += std::to_string(i) + " " + std::to_string(i * i) + " " + std::to_string(i * i * i) + "\n";
+    for (std::size_t i = 0; i < 5; ++i) legacy += on_curve(i, false, true);
     legacy += "CELLS 1 " + std::to_string(std::stoi(count) + 1) + "\n" + count + " " + stream + "\nCELL_TYPES 1\n42\n";
     return {cells_file(5, "42", "5", up_to(5), faces_of(stream, count)), legacy};
 }

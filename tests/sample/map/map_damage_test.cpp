@@ -173,7 +173,7 @@ TEST(MapDamage, HeadersThatLie) {
     map = good;
     map.taken = 1;
     EXPECT_EQ(what(map), "the map was made of cells taken otherwise");
-    map.taken = 4;
+    map.taken = 8;
     EXPECT_EQ(what(map), "the header of the map is damaged");
     map = good;
     map.dimension = 4;

@@ -12,8 +12,9 @@ namespace {
 using base::Random;
 using Triple = std::array<double, 3>;
 
+/// As coefficients alone tell it, without bisections: cells that are hardly injective are no cases of these families.
 bool is_injective(const InverseCase& c) {
-    return iso::jacobian_sign(*iso::linear_reference(c.type), places_of(c)) == iso::JacobianSign::positive;
+    return iso::jacobian_sign(*iso::linear_reference(c.type), places_of(c), 0) == iso::JacobianSign::positive;
 }
 
 /// Sets the point to the image of x, in plain double from left to right. `mirrored`: x in the half of the unit square

@@ -60,10 +60,10 @@ class SignSearch {
 public:
     SignSearch(const BernsteinBasis& basis, const SignOf& sign_of) : basis_(basis), sign_of_(sign_of) {}
 
-    std::optional<JacobianSign> sign(const std::vector<N>& coefficients) {
+    std::optional<JacobianSign> sign(const std::vector<N>& coefficients, int bisections) {
         Corners corners{};
         for (std::size_t letter = 0; letter < corners.size(); ++letter) corners[letter][letter] = 1;
-        const bool proved = search(coefficients, corners, max_bisections);
+        const bool proved = search(coefficients, corners, bisections);
         if (hidden_ && !(proved || changes_)) return std::nullopt;
         if (changes_) return JacobianSign::changes;
         return proved ? static_cast<JacobianSign>(sign_) : JacobianSign::unknown;
@@ -71,8 +71,8 @@ public:
 
 private:
     using Corners = std::array<std::array<double, BernsteinBasis::max_letters>, BernsteinBasis::max_letters>;
-    /// Three halvings of each edge of a tetrahedron; and what they leave to do of a polynomial that touches zero.
-    static constexpr int max_bisections = 18, max_pieces = 4096;
+    /// What bisections leave to do of a polynomial that touches zero.
+    static constexpr int max_pieces = 4096;
 
     /// Whether the sign is proved to be that of the first corner in all of that part; else sets changes_ or hidden_, or
     /// gives up.
@@ -153,9 +153,9 @@ private:
 /// By the coefficients of the Jacobian in the order of its basis.
 template <class N, class SignOf>
 std::optional<JacobianSign> sign_by_bisection(const Reference& of, const std::vector<N>& coefficients,
-                                              const SignOf& sign_of) {
+                                              const SignOf& sign_of, int bisections = max_bisections) {
     const auto invoked = [&](const N& x) -> std::optional<int> { return std::invoke(sign_of, x); };
-    return SignSearch<N, decltype(invoked)>(jacobian_basis(of), invoked).sign(coefficients);
+    return SignSearch<N, decltype(invoked)>(jacobian_basis(of), invoked).sign(coefficients, bisections);
 }
 
 }  // namespace barycert::core::isoparametric

@@ -47,9 +47,12 @@ enum class JacobianSign : std::int8_t {
     positive = 1,
     changes = 2,  ///< it is zero, or has both signs, at corners of the cell or of a part that was bisected
 };
-JacobianSign jacobian_sign(const Reference& reference, const Places& places);
+/// A cell is bisected as often at most: three halvings of each edge of a tetrahedron.
+inline constexpr int max_bisections = 18;
+/// With no bisection, `positive` and `negative` are told where coefficients alone prove them.
+JacobianSign jacobian_sign(const Reference& reference, const Places& places, int bisections = max_bisections);
 /// Of simplices alone.
-JacobianSign simplex_jacobian_sign(const Reference& reference, const Places& places);
+JacobianSign simplex_jacobian_sign(const Reference& reference, const Places& places, int bisections = max_bisections);
 
 /// 1 or -1 where the Jacobian is proved to have that sign; else 0.
 inline int proved_orientation(const Reference& reference, const Places& places) {

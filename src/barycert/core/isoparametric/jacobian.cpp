@@ -124,18 +124,19 @@ const Reference* linear_reference(std::uint8_t type) {
     return type == 13 ? &wedge : type == 14 ? &pyramid : nullptr;
 }
 
-JacobianSign jacobian_sign(const Reference& of, const Places& places) {
-    if (of.is_simplex()) return simplex_jacobian_sign(of, places);
+JacobianSign jacobian_sign(const Reference& of, const Places& places, int bisections) {
+    if (of.is_simplex()) return simplex_jacobian_sign(of, places, bisections);
     if (const auto sign = common_sign(of, places)) return *sign;
     const double scale = scale_of(of, places);
     const auto near = coefficients<Ball<double>>(of, [&](std::size_t to, std::size_t from, std::size_t k) {
         return Ball<double>(places.at[to][k] * scale) - Ball<double>(places.at[from][k] * scale);
     });
-    if (const auto sign = sign_by_bisection(of, near, &Ball<double>::sign)) return *sign;
+    if (const auto sign = sign_by_bisection(of, near, &Ball<double>::sign, bisections)) return *sign;
     const WholePlaces place(of, places);
     const auto exact = coefficients<Whole>(
         of, [&](std::size_t to, std::size_t from, std::size_t k) { return place(to, k) - place(from, k); });
-    return *sign_by_bisection(of, exact, [](const Whole& x) { return std::optional(x.sign()); });
+    return *sign_by_bisection(
+        of, exact, [](const Whole& x) { return std::optional(x.sign()); }, bisections);
 }
 
 }  // namespace barycert::core::isoparametric

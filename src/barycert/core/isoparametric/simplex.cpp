@@ -368,7 +368,7 @@ const Reference* simplex_reference(int dimension, std::size_t nodes) {
     return nullptr;
 }
 
-JacobianSign simplex_jacobian_sign(const Reference& of, const Places& places) {
+JacobianSign simplex_jacobian_sign(const Reference& of, const Places& places, int bisections) {
     const Simplex& s = simplex_of(of);
     const double scale = scale_of(of, places);
     using B = Ball<double>;
@@ -376,10 +376,10 @@ JacobianSign simplex_jacobian_sign(const Reference& of, const Places& places) {
         if (places.other[node] == nullptr) return B(places.at[node][k] * scale);
         return B(places.at[node][k] * scale / 2) + B(places.other[node][k] * scale / 2);
     };
-    if (const auto sign = sign_by_bisection(of, jacobian_coefficients<B>(s, near), &B::sign)) return *sign;
+    if (const auto sign = sign_by_bisection(of, jacobian_coefficients<B>(s, near), &B::sign, bisections)) return *sign;
     const WholePlaces place(of, places);
-    return *sign_by_bisection(of, jacobian_coefficients<Whole>(s, place),
-                              [](const Whole& x) { return std::optional(x.sign()); });
+    return *sign_by_bisection(
+        of, jacobian_coefficients<Whole>(s, place), [](const Whole& x) { return std::optional(x.sign()); }, bisections);
 }
 
 std::array<double, 6> hull_box(const Reference& of, const Places& places) {

@@ -2,7 +2,6 @@
 #include "barycert/io/csv/csv_layout.hpp"
 #include "barycert/io/csv/line_reader.hpp"
 #include "barycert/io/npy/npy.hpp"
-#include "barycert/io/number_word.hpp"
 #include "barycert/io/streams.hpp"
 
 namespace barycert::io {
@@ -47,7 +46,7 @@ void take_line(std::string_view line, bool whole, const CsvLayout& layout, const
     for (std::string_view text; cutter.next(text); ++count) {
         const int component = count < layout.role_of.size() ? layout.role_of[count] : CsvLayout::passed_over;
         if (component < 0) continue;
-        const std::optional<double> x = real_of_word(text, false);
+        const auto x = base::parse_double(text);
         if (!x || is_inexact(text, *x))
             refuse_line(place.file, place.line, "a value of field \"" + field.name + '"',
                         x ? "an integer that a double holds exactly" : "a number", base::quoted(text),
@@ -107,7 +106,7 @@ Field read_text(Field field, const std::string& path, std::string_view bytes) {
             refuse("one way to part numbers: blanks, commas or semicolons", base::quoted(line),
                    "if commas are decimal ones, write points");
         for (const std::string_view word : words) {
-            const std::optional<double> x = real_of_word(word, false);
+            const auto x = base::parse_double(word);
             if (!x || is_inexact(word, *x))
                 refuse(x ? "an integer that a double holds exactly" : "numbers", base::quoted(word),
                        x ? "write it with a decimal point to round it"
