@@ -10,6 +10,7 @@
 #include "barycert/base/arena.hpp"
 #include "barycert/base/finite.hpp"
 #include "barycert/base/large_pages.hpp"
+#include "barycert/core/isoparametric/inverse.hpp"
 #include "barycert/mesh/cell_rings.hpp"
 #include "barycert/mesh/cell_types.hpp"
 #include "barycert/mesh/columns.hpp"
@@ -25,7 +26,7 @@ using Index = Mesh::Index;
 /// VTK documents one order of its nodes, the triangle of the first three seen from outside, and its own functions have
 /// the other, as Gmsh, Medit and Exodus have it; files have both. So its order tells nothing, and its parts are turned
 /// to positive orientation.
-constexpr std::uint8_t vtk_wedge = 13;
+constexpr std::uint8_t vtk_hexahedron = 12, vtk_wedge = 13, vtk_pyramid = 14;
 
 constexpr auto known_shapes = [] {
     std::array<Shape, 72> all{};
@@ -217,7 +218,7 @@ public:
             for (auto& ring : own) {
                 for (Index& place : ring) place = nodes[static_cast<std::size_t>(place)];
             }
-            return cut_rings(cell, std::move(own));
+            return cut_rings(cell, std::move(own), &parts);
         }
         if (type != vtk_wedge || side == Sign::positive) return add(parts, false);
         Parts& turned = known_[std::uint64_t{1} << 61U | key << 4U | apex];
@@ -299,8 +300,21 @@ private:
         cut_rings(cell, std::move(rings));
     }
 
-    /// A cell that no pattern fits, by its faces.
-    void cut_rings(std::size_t cell, Rings rings) {
+    /// Whether the isoparametric map of a hexahedron, wedge or pyramid is proved to be injective.
+    bool has_proved_map(std::size_t cell) const {
+        namespace iso = core::isoparametric;
+        const std::uint8_t type = mesh_.shapes.types[cell];
+        if (type != vtk_hexahedron && type != vtk_wedge && type != vtk_pyramid) return false;
+        const std::span nodes = mesh_.shapes.nodes_of(cell);
+        iso::Places places;
+        for (std::size_t i = 0; i < nodes.size(); ++i) places.at[i] = nodes_.at(nodes[i]);
+        return iso::proved_orientation(*iso::linear_reference(type), places) != 0;
+    }
+
+    /// A cell that no pattern fits, by its faces. What cannot be cut keeps the parts of its pattern if its map is
+    /// injective, though some of them are turned or overlap: multilinear cells need them to be found
+    /// (locate/mapped/mapped_cells.hpp), and as linear ones `check` finds what is wrong.
+    void cut_rings(std::size_t cell, Rings rings, const Parts* pattern = nullptr) {
         std::vector<Index> all;
         for (const auto& ring : rings) all.insert(all.end(), ring.begin(), ring.end());
         const std::span nodes = mesh_.shapes.nodes_of(cell);
@@ -320,6 +334,10 @@ private:
             otherwise += parts.at_lowest ? 0 : 1;
             if (mesh_.shapes.types[cell] == vtk_wedge && is_negative(parts)) parts = turn(std::move(parts));
             return add(own_.emplace_back(std::move(parts)), true);
+        }
+        if (pattern != nullptr && has_proved_map(cell)) {
+            ++otherwise;
+            return add(*pattern, false);
         }
         add_degenerate(std::span(all).first(1), uncut_part);
     }
