@@ -21,8 +21,8 @@ std::uint64_t count_places(const SurfaceParts& s, const std::vector<std::uint8_t
     }
     if (others.empty()) return count;
     std::ranges::sort(others, {}, at);
-    const auto same = std::ranges::unique(others, {}, at);
-    others.erase(same.begin(), same.end());
+    others.erase(std::unique(others.begin(), others.end(), [&](auto a, auto b) { return at(a) == at(b); }),
+                 others.end());
     count += others.size();
     // Those at the place of a node of a triangle, once each.
     std::vector<std::array<double, 3>> met;

@@ -181,8 +181,9 @@ private:
 
     void count_all(const std::vector<std::uint32_t>& shell, std::int8_t times) {
         for (const std::uint32_t m : shell) {
-            const auto [first, last] = std::ranges::equal_range(of_place_, m, {}, &Copy::second);
-            for (auto copy = first; copy != last; ++copy) counts_.of[copy->first] = times;
+            for (auto copy = std::ranges::lower_bound(of_place_, m, {}, &Copy::second);
+                 copy != of_place_.end() && copy->second == m; ++copy)
+                counts_.of[copy->first] = times;
             if (times == SideCounts::parity) counts_.rules.by_parity += merged_[m].copies;
         }
     }
