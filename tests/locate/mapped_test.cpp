@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "barycert/mesh/pulling.hpp"
 #include "barycert/sampler.hpp"
 #include "mesh/curved_mesh.hpp"
 #include "mesh/shaped_mesh.hpp"
@@ -256,6 +257,73 @@ TEST(MappedCells, L1V1CellsOfAllTypes) {
             EXPECT_GT(count[1], 10U) << int{type};
         }
     }
+}
+
+// Hexahedra that no cut into tetrahedra fits, but whose maps are injective: nowhere as linear cells, told; as multilinear
+// ones where their maps have them.
+TEST(MappedCells, L1V1CellsWithoutParts) {
+    std::mt19937 random(4);
+    std::size_t without = 0;
+    std::map<Feature, std::size_t> seen;
+    for (int round = 0; round < 6000; ++round) {
+        Mesh mesh;
+        std::vector<Index> nodes{0, 1, 2, 3, 4, 5, 6, 7};
+        std::ranges::shuffle(nodes, random);
+        mesh.points.resize(24);
+        const auto places = places_of(12);
+        for (std::size_t i = 0; i < 8; ++i) {
+            for (std::size_t k = 0; k < 3; ++k)
+                mesh.points[3 * static_cast<std::size_t>(nodes[i]) + k] =
+                    places[i][k] * 4 + static_cast<int>(random() % 17) - 8;
+        }
+        add_shape(mesh, 12, nodes);
+        mesh.point_fields = {{"f", 1, {0, 1, -1, 2, 3, 0.5, -2, 1}}};
+        cut(mesh);
+        if (mesh::uncut_parts(mesh).empty()) continue;
+        EXPECT_EQ(mesh.cell_count(), 1U);
+        EXPECT_NE(mesh::told_uncut(mesh).find("--interpolation multilinear"), std::string::npos);
+        const Sampler sampler =
+            Sampler::build(mesh, {}, {.interpolation = CellInterpolation::multilinear, .progress = {}}).value();
+        if (sampler.locator().unmapped_cells() != 0) continue;
+        ++without;
+        std::vector<double> points, values;
+        for (int i = 0; i < 3 * 200; ++i) points.push_back(std::uniform_real_distribution(-8.0, 32.0)(random));
+        const Table rows = sampler.sample(points).value(), linear = Sampler::build(mesh).value().sample(points).value();
+        const auto corners = nodes_of(mesh, 0, values);
+        for (std::size_t i = 0; i < rows.row_count(); ++i) {
+            ASSERT_EQ(linear.cells[i], -1);
+            const Inverse x = invert(3, corners, values, &points[3 * i], products, {0.5, 0.5, 0.5});
+            if (!x.found) continue;
+            const Real room = std::min(std::ranges::min(x.x), 1 - std::ranges::max(x.x));
+            if (std::abs(room) < 1e-12L) continue;
+            ASSERT_EQ(rows.features[i], room > 0 ? Feature::interior : Feature::outside) << round << ' ' << i;
+            ASSERT_EQ(sampler.locator().locate(&points[3 * i])->feature, rows.features[i]);
+            ++seen[rows.features[i]];
+            if (room > 0) {
+                ASSERT_NEAR(rows.values[i], static_cast<double>(x.value), 1e-13);
+            }
+        }
+        // Exactly on sides, edges and corners.
+        for (int i = 0; i < 100; ++i) {
+            std::array<Real, 3> x{};
+            for (Real& own : x) own = static_cast<Real>(random() % 5) / 4;
+            const std::vector<Real> n = products(x);
+            std::array<double, 3> p{};
+            for (std::size_t k = 0; k < 3; ++k) {
+                Real sum = 0;
+                for (std::size_t j = 0; j < 8; ++j) sum += n[j] * corners[j][k];
+                p[k] = static_cast<double>(sum);
+            }
+            const auto on = std::ranges::count_if(x, [](Real own) { return own == 0 || own == 1; });
+            const Feature feature = std::array{Feature::interior, Feature::face, Feature::edge,
+                                               Feature::vertex}[static_cast<std::size_t>(on)];
+            ASSERT_EQ(sampler.locator().locate(p.data())->feature, feature);
+            ++seen[feature];
+        }
+    }
+    EXPECT_GT(without, 30U);
+    EXPECT_EQ(seen.size(), 5U);
+    EXPECT_GT(seen[Feature::interior], 1000U);
 }
 
 // Exactly on sides and edges: fractions of few bits between nodes on a lattice.

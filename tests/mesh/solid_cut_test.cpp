@@ -1,5 +1,4 @@
 #include "barycert/mesh/solid_cut.hpp"
-#include "barycert/core/isoparametric/inverse.hpp"
 
 #include "mesh/cut_oracle.hpp"
 #include "mesh/octree_cell.hpp"
@@ -150,7 +149,7 @@ TEST(SolidCut, FillsWhatCubesMake) {
 
 TEST(SolidCut, FillsWarpedHexahedraOrTellsThatItCannot) {
     std::mt19937 random(4);
-    std::size_t lowest = 0, others = 0, uncut = 0, kept = 0;
+    std::size_t lowest = 0, others = 0, uncut = 0;
     for (int round = 0; round < 4000; ++round) {
         const std::vector<Index> order = random_order(8, random);
         Mesh mesh;
@@ -177,26 +176,15 @@ TEST(SolidCut, FillsWarpedHexahedraOrTellsThatItCannot) {
             ASSERT_TRUE(mesh::cut_face({mesh.points.data(), 3, {}}, ring, own));
             for (const auto& t : own) triangles.emplace_back(t.begin(), t.end());
         }
-        const std::string fault = fault_of_parts(mesh, volume_inside(mesh, triangles));
-        core::isoparametric::Places corners;
-        for (std::size_t i = 0; i < 8; ++i) corners.at[i] = mesh.point(order[i]);
-        // Cells that cannot be cut keep their pattern if multilinear ones need it.
-        if (!fault.empty() &&
-            core::isoparametric::proved_orientation(*core::isoparametric::linear_reference(12), corners) != 0) {
-            ++kept;
-            continue;
-        }
-        ASSERT_EQ(fault, "") << "round " << round;
+        ASSERT_EQ(fault_of_parts(mesh, volume_inside(mesh, triangles)), "") << "round " << round;
         bool all = true;
         for (std::size_t part = 0; part < mesh.cell_count(); ++part)
             all = all && std::ranges::count(mesh.corners_of(part), 0) == 1;
         ++(all ? lowest : others);
     }
-    EXPECT_GT(kept, 0U);
-    EXPECT_LT(kept, 80U);
     EXPECT_GT(lowest, 1000U);
     EXPECT_GT(others, 50U);
-    EXPECT_GT(uncut, 2U);
+    EXPECT_GT(uncut, 5U);
 }
 
 // Schoenhardt's: a prism turned about its axis, its sides bent inwards. No tetrahedron has a face of it and four nodes.

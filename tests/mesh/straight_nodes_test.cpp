@@ -30,22 +30,36 @@ Rational exact(const StraightPlace& place) {
     return sum / place.over;
 }
 
-/// Whether no number of a type is nearer to x, but one.
+/// Whether no number of a type is nearer to x, but one; or to what x is when it moves by less than `excused`.
 template <class Number>
-bool is_one_of_two_nearest(double own, const Rational& x) {
+bool is_one_of_two_nearest(double own, const Rational& x, const Rational& excused) {
     const auto number = static_cast<Number>(own);
     for (const Number beyond : {-std::numeric_limits<Number>::max(), std::numeric_limits<Number>::max()}) {
         const Number next = std::nextafter(number, beyond);
-        if (abs(x - Rational(next)) < abs(x - Rational(number))) return false;
+        const Rational moved = x + (beyond < 0 ? 1 : -1) * excused;
+        const Rational farther = abs(moved - Rational(number)) - abs(moved - Rational(next));
+        if (farther > 0 || (farther == 0 && excused != 0)) return false;
     }
     return true;
+}
+
+/// By how much the place may move when each corner does, by half the distance of floats of its size.
+Rational moved_by_floats(const StraightPlace& place) {
+    Rational sum = 0;
+    for (std::size_t i = 0; i < place.count; ++i) {
+        int exponent = 0;
+        std::frexp(place.corners[i], &exponent);
+        const int unit = place.corners[i] == 0 ? -149 : std::max(exponent - 24, -149);
+        sum += Rational(std::ldexp(1.0, unit - 1)) * place.times[i];
+    }
+    return sum / place.over;
 }
 
 Straight expected(double own, const StraightPlace& place, bool single) {
     const Rational x = exact(place);
     if (x == Rational(own)) return Straight::exactly;
-    if (is_one_of_two_nearest<double>(own, x)) return Straight::rounded;
-    return single && is_one_of_two_nearest<float>(own, x) ? Straight::written : Straight::no;
+    if (is_one_of_two_nearest<double>(own, x, 0)) return Straight::rounded;
+    return single && is_one_of_two_nearest<float>(own, x, moved_by_floats(place)) ? Straight::written : Straight::no;
 }
 
 TEST(StraightNodes, MiddlesOfDoublesAndFloats) {
@@ -100,13 +114,13 @@ TEST(StraightNodes, DecimalNumbersOfAText) {
     std::mt19937_64 random(2);
     for (const int places : {0, 3, 6, 9}) {
         for (const std::int64_t limit : {std::int64_t{99999}, std::int64_t{9999999}}) {
-            std::array<std::size_t, 3> seen{};
+            std::array<std::size_t, 4> seen{};
             for (int i = 0; i < 3000; ++i) {
                 const auto any = [&] { return std::uniform_int_distribution<std::int64_t>(-limit, limit)(random); };
                 const auto read = [&](std::int64_t n) {
                     return std::strtod((std::to_string(n) + "e-" + std::to_string(places)).c_str(), nullptr);
                 };
-                const std::int64_t a = any(), b = any(), m = (a + b) / 2 + std::uniform_int_distribution(-1, 1)(random);
+                const std::int64_t a = any(), b = any(), m = (a + b) / 2 + std::uniform_int_distribution(-2, 2)(random);
                 const Written written = how_written(std::vector{read(a), read(b), read(m), read(limit), read(1)});
                 ASSERT_EQ(written.lowest, -places);
                 const Straight found = straightness(read(m), middle(read(a), read(b)), written);
@@ -115,9 +129,10 @@ TEST(StraightNodes, DecimalNumbersOfAText) {
                 if (twice_off == 0) {
                     EXPECT_NE(found, Straight::no);
                 } else {
+                    // Together with half a unit of each corner less than a unit.
                     EXPECT_EQ(found, twice_off == 1 ? Straight::written : Straight::no) << a << ' ' << b << ' ' << m;
                 }
-                ++seen[static_cast<std::size_t>(std::min<std::int64_t>(twice_off, 2))];
+                ++seen[static_cast<std::size_t>(std::min<std::int64_t>(twice_off, 3))];
             }
             for (const std::size_t count : seen) EXPECT_GT(count, 100U);
         }
@@ -152,6 +167,49 @@ TEST(StraightNodes, RoundNumbersAreAsExactAsTheirMesh) {
               Straight::written);
     EXPECT_EQ(straightness(0.500001, middle(0.4, 0.600001), how_written(std::vector{0.4, 0.600001, 0.500001})),
               Straight::written);
+}
+
+// Middles computed in double from corners that are written apart, as meshers do.
+TEST(StraightNodes, MiddlesComputedInDoubleBeforeTheyAreWritten) {
+    std::mt19937_64 random(4);
+    for (const int digits : {12, 14, 15, 16}) {
+        for (int i = 0; i < 20000; ++i) {
+            const auto written_as = [&](double x) {
+                std::array<char, 32> text{};
+                std::snprintf(text.data(), text.size(), "%.*g", digits, x);
+                return std::strtod(text.data(), nullptr);
+            };
+            const double a = std::uniform_real_distribution(-2.0, 2.0)(random);
+            const double b = std::uniform_real_distribution(0.1, 1.1)(random), m = written_as((a + b) / 2);
+            const Written written{.single = false, .digits = digits, .lowest = -digits - 2};
+            ASSERT_NE(straightness(m, middle(written_as(a), written_as(b)), written), Straight::no) << a << ' ' << b;
+            const double off = 4 * std::pow(10.0, 1 - digits);
+            ASSERT_EQ(straightness(written_as(m + off), middle(written_as(a), written_as(b)), written), Straight::no);
+        }
+    }
+}
+
+// Numbers as %.6g writes them: a corner of 1 and more has a unit ten times that of a middle below 1.
+TEST(StraightNodes, CornersRoundedToLargerUnitsThanTheMiddle) {
+    std::mt19937_64 random(3);
+    std::size_t beyond_half = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const auto written_as = [](double x) {
+            std::array<char, 32> text{};
+            std::snprintf(text.data(), text.size(), "%.6g", x);
+            return std::strtod(text.data(), nullptr);
+        };
+        const double a = std::uniform_real_distribution(-0.9, -0.1)(random);
+        const double b = std::uniform_real_distribution(1.0, 1.9)(random), m = written_as((a + b) / 2);
+        const StraightPlace place = middle(written_as(a), written_as(b));
+        const Written written = how_written(std::vector{0.123456, 1.23456, place.corners[0], place.corners[1], m});
+        ASSERT_EQ(written.digits, 6);
+        ASSERT_NE(straightness(m, place, written), Straight::no) << i;
+        const double off = std::abs(m - (place.corners[0] + place.corners[1]) / 2);
+        beyond_half += off > 0.6e-6 ? 1 : 0;
+        ASSERT_EQ(straightness(m + (m > 0 ? 1e-5 : -1e-5), place, written), Straight::no);
+    }
+    EXPECT_GT(beyond_half, 1000U);
 }
 
 }  // namespace

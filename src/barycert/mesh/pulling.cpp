@@ -10,7 +10,6 @@
 #include "barycert/base/arena.hpp"
 #include "barycert/base/finite.hpp"
 #include "barycert/base/large_pages.hpp"
-#include "barycert/core/isoparametric/inverse.hpp"
 #include "barycert/mesh/cell_rings.hpp"
 #include "barycert/mesh/cell_types.hpp"
 #include "barycert/mesh/columns.hpp"
@@ -218,7 +217,7 @@ public:
             for (auto& ring : own) {
                 for (Index& place : ring) place = nodes[static_cast<std::size_t>(place)];
             }
-            return cut_rings(cell, std::move(own), &parts);
+            return cut_rings(cell, std::move(own));
         }
         if (type != vtk_wedge || side == Sign::positive) return add(parts, false);
         Parts& turned = known_[std::uint64_t{1} << 61U | key << 4U | apex];
@@ -300,21 +299,8 @@ private:
         cut_rings(cell, std::move(rings));
     }
 
-    /// Whether the isoparametric map of a hexahedron, wedge or pyramid is proved to be injective.
-    bool has_proved_map(std::size_t cell) const {
-        namespace iso = core::isoparametric;
-        const std::uint8_t type = mesh_.shapes.types[cell];
-        if (type != vtk_hexahedron && type != vtk_wedge && type != vtk_pyramid) return false;
-        const std::span nodes = mesh_.shapes.nodes_of(cell);
-        iso::Places places;
-        for (std::size_t i = 0; i < nodes.size(); ++i) places.at[i] = nodes_.at(nodes[i]);
-        return iso::proved_orientation(*iso::linear_reference(type), places) != 0;
-    }
-
-    /// A cell that no pattern fits, by its faces. What cannot be cut keeps the parts of its pattern if its map is
-    /// injective, though some of them are turned or overlap: multilinear cells need them to be found
-    /// (locate/mapped/mapped_cells.hpp), and as linear ones `check` finds what is wrong.
-    void cut_rings(std::size_t cell, Rings rings, const Parts* pattern = nullptr) {
+    /// A cell that no pattern fits, by its faces.
+    void cut_rings(std::size_t cell, Rings rings) {
         std::vector<Index> all;
         for (const auto& ring : rings) all.insert(all.end(), ring.begin(), ring.end());
         const std::span nodes = mesh_.shapes.nodes_of(cell);
@@ -334,10 +320,6 @@ private:
             otherwise += parts.at_lowest ? 0 : 1;
             if (mesh_.shapes.types[cell] == vtk_wedge && is_negative(parts)) parts = turn(std::move(parts));
             return add(own_.emplace_back(std::move(parts)), true);
-        }
-        if (pattern != nullptr && has_proved_map(cell)) {
-            ++otherwise;
-            return add(*pattern, false);
         }
         add_degenerate(std::span(all).first(1), uncut_part);
     }
@@ -453,9 +435,14 @@ std::string told_uncut(const Mesh& mesh) {
     for (std::size_t i = 0; i < std::min(most, uncut.size()); ++i)
         numbers += (i == 0 ? "" : ", ") + std::to_string(mesh.cell_number(uncut[i]));
     const bool one = uncut.size() == 1;
+    const bool may_have_map = std::ranges::any_of(uncut, [&, wholes = whole_of_parts(mesh)](Index part) {
+        const std::uint8_t type = mesh.shapes.types[static_cast<std::size_t>(wholes[static_cast<std::size_t>(part)])];
+        return type == vtk_hexahedron || type == vtk_wedge || type == vtk_pyramid;
+    });
     return std::to_string(uncut.size()) + (one ? " cell" : " cells") + " cannot be cut into " +
            (mesh.dimension == 3 ? "tetrahedra" : "triangles") + " without new points, and own" + (one ? "s" : "") +
-           " nothing: " + (one ? "cell " : "cells ") + numbers + (uncut.size() > most ? ", ..." : "") + " (from 0)";
+           " nothing: " + (one ? "cell " : "cells ") + numbers + (uncut.size() > most ? ", ..." : "") + " (from 0)" +
+           (may_have_map ? "; hexahedra, wedges and pyramids may own points with --interpolation multilinear" : "");
 }
 
 Mesh rows_of_wholes(const Mesh& mesh) {

@@ -35,8 +35,10 @@ Decimal decimal(double x) {
     return out;
 }
 
-/// A sum of up to 6 doubles times whole numbers below 16.
+/// A sum of up to 14 doubles times whole numbers below 16.
 class ExactSum {
+    static constexpr std::size_t most = 14;
+
 public:
     /// `times` times the place's own sum.
     ExactSum(const StraightPlace& place, int times) {
@@ -49,7 +51,7 @@ public:
 
     int sign() const {
         // Products are below 2^1024, and off by u = 2^-53 of each or, subnormal, by 2^-1075; sums by u of all so far.
-        // Together that is less than 8 u of the sum of all sizes, and 2^-1070.
+        // Together that is less than 15 u of the sum of all sizes, and 2^-1070.
         double sum = 0, size = 0;
         for (std::size_t i = 0; i < count_; ++i) {
             const double own = terms_[i] * 0x1p-8 * times_[i];
@@ -62,8 +64,8 @@ public:
 
 private:
     int exactly() const {
-        std::array<std::int64_t, 6> mantissa{};
-        std::array<int, 6> exponent{};
+        std::array<std::int64_t, most> mantissa{};
+        std::array<int, most> exponent{};
         int lowest = std::numeric_limits<int>::max();
         for (std::size_t i = 0; i < count_; ++i) {
             mantissa[i] = static_cast<std::int64_t>(std::ldexp(std::frexp(terms_[i], &exponent[i]), 53));
@@ -77,51 +79,73 @@ private:
         return sum.sign();
     }
 
-    std::array<double, 6> terms_{};
-    std::array<int, 6> times_{};
+    std::array<double, most> terms_{};
+    std::array<int, most> times_{};
     std::size_t count_ = 0;
 };
 
-/// Whether the place is between the middles of a coordinate and its neighbours among numbers of a type.
+/// Whether the place is between the middles of a coordinate and its neighbours among numbers of a type. `corners`: it
+/// may be beyond by less than rounding the corners may have moved it.
 template <class Number>
-bool is_rounded_to(double coordinate, const StraightPlace& place) {
+bool is_rounded_to(double coordinate, const StraightPlace& place, bool corners) {
     constexpr Number inf = std::numeric_limits<Number>::infinity();
     const auto own = static_cast<Number>(coordinate);
-    const auto sign_beyond = [&](Number next) {  // of the place less the middle, times 2 over
+    const auto sign_beyond = [&](Number next, int side) {  // of the place less what is excused, times 2 over
         ExactSum sum(place, 2);
         sum.add(coordinate, -place.over);
         sum.add(std::isfinite(next) ? static_cast<double>(next) : coordinate, -place.over);
+        for (std::size_t i = 0; corners && i < place.count; ++i) {
+            const double size = std::fabs(place.corners[i]);
+            const Number beyond = std::nextafter(static_cast<Number>(size), inf);
+            if (!std::isfinite(beyond)) continue;
+            sum.add(static_cast<double>(beyond), -side * place.times[i]);
+            sum.add(size, side * place.times[i]);
+        }
         return sum.sign();
     };
-    return sign_beyond(std::nextafter(own, -inf)) >= 0 && sign_beyond(std::nextafter(own, inf)) <= 0;
+    const int least = corners ? 1 : 0;
+    return sign_beyond(std::nextafter(own, -inf), -1) >= least && sign_beyond(std::nextafter(own, inf), 1) <= -least;
 }
 
+/// From so many digits on the middle was rounded to double, before it was written, by no small part of a unit.
+constexpr int own_rounding_digits = 15;
+
 bool is_decimal_rounded(double coordinate, const StraightPlace& place, const Written& written) {
-    const Decimal own = decimal(coordinate);
-    const int first = own.exponent + own.count - 1;
-    const int unit = own.count == 0 ? written.lowest : std::max(written.lowest, first - written.digits + 1);
-    // Far off, in double: twice what would be enough.
+    // Far off, in double: a number's unit is at most 10^lowest, or 10^(1 - digits) of itself. Twice what would be
+    // enough.
     double off = -place.over * (coordinate * 0x1p-8), size = std::fabs(off);
-    std::array<Decimal, 4> corners;
-    int lowest = std::min(unit, own.count == 0 ? unit : own.exponent);
     for (std::size_t i = 0; i < place.count; ++i) {
         const double term = place.times[i] * (place.corners[i] * 0x1p-8);
         off += term;
         size += std::fabs(term);
     }
-    if (std::fabs(off) - 0x1p-48 * size > place.over * 0x1p-8 * std::pow(10.0, unit)) return false;
-    for (std::size_t i = 0; i < place.count; ++i) {
-        corners[i] = decimal(place.corners[i]);
-        if (corners[i].count != 0) lowest = std::min(lowest, corners[i].exponent);
+    const double units =
+        2 * place.over * 0x1p-8 * std::pow(10.0, written.lowest) + 1.5 * size * std::pow(10.0, 1 - written.digits);
+    if (std::fabs(off) - 0x1p-48 * size > units) return false;
+
+    std::array<Decimal, 5> numbers;  // the corners, and the node
+    std::array<int, 5> unit{};
+    int lowest = written.lowest;
+    for (std::size_t i = 0; i <= place.count; ++i) {
+        const Decimal& own = numbers[i] = decimal(i == place.count ? coordinate : place.corners[i]);
+        const int first = own.exponent + own.count - 1;
+        unit[i] = own.count == 0 ? written.lowest : std::max(written.lowest, first - written.digits + 1);
+        if (own.count != 0) lowest = std::min(lowest, own.exponent);
     }
     const auto shifted = [&](std::int64_t digits, int exponent) {
         using boost::multiprecision::pow;
         return digits == 0 ? Integer(0) : Integer(digits * pow(Integer(10), static_cast<unsigned>(exponent - lowest)));
     };
-    Integer sum = -place.over * shifted(own.digits, own.exponent);
-    for (std::size_t i = 0; i < place.count; ++i)
-        sum += place.times[i] * shifted(corners[i].digits, corners[i].exponent);
-    return 2 * abs(sum) <= place.over * shifted(1, unit);
+    Integer sum = 0, excused = 0;
+    for (std::size_t i = 0; i <= place.count; ++i) {
+        const int times = i == place.count ? -place.over : place.times[i];
+        sum += times * shifted(numbers[i].digits, numbers[i].exponent);
+        excused += std::abs(times) * shifted(1, unit[i]);
+    }
+    if (written.digits < own_rounding_digits) return 2 * abs(sum) < excused;
+    const Decimal& own = numbers[place.count];
+    const Integer in_double = place.over * abs(shifted(own.digits, own.exponent));  // over 2^52: twice half an ulp
+    return (2 * abs(sum) << 52U) < (excused << 52U) + in_double;
 }
 
 }  // namespace
@@ -154,8 +178,8 @@ Straight straightness(double coordinate, const StraightPlace& place, const Writt
     ExactSum off(place, 1);
     off.add(coordinate, -place.over);
     if (off.sign() == 0) return Straight::exactly;
-    if (is_rounded_to<double>(coordinate, place)) return Straight::rounded;
-    const bool as_written = (written.single && is_rounded_to<float>(coordinate, place)) ||
+    if (is_rounded_to<double>(coordinate, place, false)) return Straight::rounded;
+    const bool as_written = (written.single && is_rounded_to<float>(coordinate, place, true)) ||
                             (written.digits != 0 && is_decimal_rounded(coordinate, place, written));
     return as_written ? Straight::written : Straight::no;
 }

@@ -2,7 +2,7 @@
 /// a sum of corners, times whole numbers, over the order.
 ///
 /// Files seldom have that place exactly, for it was rounded when it was computed or written. A coordinate counts as
-/// that of the place if it is one of the two numbers nearest to it among
+/// that of the place if it is one of the two numbers nearest to it, or to one that corners may have had, among
 ///   doubles;
 ///   floats, if all coordinates of the mesh are floats;
 ///   decimal numbers of as many digits as the mesh has, if its coordinates have at most 16, and one at least 5: of 17
@@ -12,8 +12,10 @@
 ///   mesh tells the digits, not the coordinate. Corners are then what their texts say, the shortest that are read as
 ///   they are.
 ///
-/// So half a unit is excused, where the place has a digit more than the file. Where corners were rounded as well, the
-/// node may be farther off: then it counts as being where the file has it.
+/// So half a unit of the node is excused, where the place has a digit more than the file. Of floats and decimal numbers
+/// half a unit of each corner is, too, times its share of the place, all together but the sum itself: they were rounded
+/// when they were written, after the place was computed. That matters where numbers have other units: of equal ones
+/// the sum is a whole number of halves. From 15 digits on so is the middle's own rounding to double.
 #pragma once
 
 #include <array>

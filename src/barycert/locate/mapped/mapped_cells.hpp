@@ -7,6 +7,8 @@
 /// paraboloids, which are the points with a c = b d, where a, b, c, d are its weights in the tetrahedron. The
 /// tetrahedron meets no flat side but in an edge: its nodes beyond that edge are joined to the flat side's nodes by
 /// edges, along which the Jacobian is positive at both ends. So its faces that are parts' alone lie inside the cell.
+/// Where a cell cannot be cut into parts, the triangles of its sides tell of points outside those tetrahedra: on a
+/// triangle, or inside by their winding number.
 ///
 /// Curved simplices of order 2 to 4. A point is in the cell if Newton's method finds it there, proved, and not if the
 /// cell is proved to have it nowhere else (core/isoparametric). Facets whose edges are all straight are flat, and
@@ -135,8 +137,10 @@ private:
     struct Warped {
         Mesh::Index whole;
         std::uint8_t sides;  ///< a bit for each that is not flat
+        bool uncut;          ///< no part of it holds a point
     };
-    /// What the sides of a cell that is mapped say of a point, if it is in the tetrahedron of one that is warped.
+    /// What the sides of a cell that is mapped say of a point: if it is in the tetrahedron of one that is warped; of a
+    /// cell without parts, if it is in the cell.
     struct AtSides {
         std::size_t whole;
         bool outside;
@@ -173,6 +177,8 @@ private:
     template <class Use>
     void for_sides(std::size_t whole, Use use) const;
     void find_sides();
+    /// On which feature of a cell that has no parts a point lies that is in none of those tetrahedra.
+    Feature feature_by_triangles(std::size_t whole, const double* point) const;
     std::vector<AtSides> at_sides(const double* point) const;
     /// As all_owners().
     void settle_all(const double* point, const std::vector<AtSides>& sides, std::vector<Location>& all) const;
@@ -192,7 +198,7 @@ private:
     Buffer<LaneNodes> lane_nodes_;
     std::vector<std::int32_t> lane_cell_;
     std::vector<std::uint8_t> lane_part_;  ///< which of its cell's parts is at that place
-    std::vector<Warped> warped_;           ///< products with such sides
+    std::vector<Warped> warped_;           ///< products with such sides, and those without parts
     std::unique_ptr<index::BoxTree> tree_;
     std::vector<mesh::SplitSide> split_sides_;
     std::unique_ptr<index::BoxTree> split_tree_;

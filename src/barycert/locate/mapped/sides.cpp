@@ -2,6 +2,8 @@
 
 #include "barycert/base/vectors.hpp"
 #include "barycert/core/isoparametric/ball.hpp"
+#include "barycert/index/crossing.hpp"
+#include "barycert/index/facet_contact.hpp"
 #include "barycert/locate/mapped/mapped_cells.hpp"
 #include "barycert/mesh/pulling.hpp"
 #include "barycert/mesh/warped_sides.hpp"
@@ -77,7 +79,9 @@ void MappedCells::find_sides() {
     const std::vector<std::uint8_t> warped = mesh::warped_sides(mesh_, products);
     split_sides_ = mesh::compare_sides(mesh_, warped).split;
     for (std::size_t shape = 0; shape < whole_count(); ++shape) {
-        if (warped[shape] != 0) warped_.push_back({static_cast<Mesh::Index>(shape), warped[shape]});
+        const auto first = static_cast<std::size_t>(mesh_.shapes.parts[shape]);
+        const bool uncut = products[shape] != 0 && mesh_.shapes.inside[first] == mesh::uncut_part;
+        if (warped[shape] != 0 || uncut) warped_.push_back({static_cast<Mesh::Index>(shape), warped[shape], uncut});
     }
     if (warped_.empty()) return;
     std::vector<index::Box> boxes(warped_.size());
@@ -108,6 +112,35 @@ bool MappedCells::is_near_split(const double* point) const {
     return near;
 }
 
+Feature MappedCells::feature_by_triangles(std::size_t shape, const double* point) const {
+    const std::span nodes = mesh_.shapes.nodes_of(shape);
+    int winding = 0;
+    for (const std::vector<Mesh::Index>& ring : mesh::rings_of(mesh_.shapes.types[shape])) {
+        const std::size_t n = ring.size();
+        const auto node = [&](std::size_t i) { return nodes[static_cast<std::size_t>(ring[i])]; };
+        const auto are_neighbours = [&](Mesh::Index a, Mesh::Index b) {
+            for (std::size_t i = 0; i < n; ++i) {
+                const std::array side{node(i), node((i + 1) % n)};
+                if (side == std::array{a, b} || side == std::array{b, a}) return true;
+            }
+            return false;
+        };
+        for (std::size_t i = 1; i + 1 < n; ++i) {
+            const std::array corners{node(0), node(i), node(i + 1)};
+            const std::array at{mesh_.point(corners[0]), mesh_.point(corners[1]), mesh_.point(corners[2])};
+            const auto on = index::face_around(3, {corners, at}, point);
+            if (on[0] < 0) {
+                winding += index::crossing(at, point);
+                continue;
+            }
+            if (on[1] < 0) return Feature::vertex;
+            // A diagonal of the side is no edge.
+            return on[2] < 0 && are_neighbours(on[0], on[1]) ? Feature::edge : Feature::face;
+        }
+    }
+    return winding != 0 ? Feature::interior : Feature::outside;
+}
+
 std::vector<MappedCells::AtSides> MappedCells::at_sides(const double* point) const {
     std::vector<AtSides> all;
     if (tree_ == nullptr) return all;
@@ -128,7 +161,9 @@ std::vector<MappedCells::AtSides> MappedCells::at_sides(const double* point) con
             const int zeros = std::popcount(in.zeros);
             on = std::max(on, zeros == 3 ? Feature::vertex : zeros == 2 ? Feature::edge : Feature::face);
         });
-        if (some) all.push_back({shape, outside, on});
+        if (some) return all.push_back({shape, outside, on}), true;
+        if (warped_[i].uncut) on = feature_by_triangles(shape, point);
+        if (warped_[i].uncut && on != Feature::outside) all.push_back({shape, false, on});
         return true;
     });
     return all;
