@@ -442,7 +442,7 @@ std::string told_uncut(const Mesh& mesh) {
     return std::to_string(uncut.size()) + (one ? " cell" : " cells") + " cannot be cut into " +
            (mesh.dimension == 3 ? "tetrahedra" : "triangles") + " without new points, and own" + (one ? "s" : "") +
            " nothing: " + (one ? "cell " : "cells ") + numbers + (uncut.size() > most ? ", ..." : "") + " (from 0)" +
-           (may_have_map ? "; hexahedra, wedges and pyramids may own points with --interpolation multilinear" : "");
+           (may_have_map ? "; hexahedra, wedges and pyramids may own points as multilinear cells" : "");
 }
 
 Mesh rows_of_wholes(const Mesh& mesh) {
