@@ -94,6 +94,7 @@ TEST(SurfaceWords, LinesHaveAsManyAsTheirFormatSays) {
     fails("a.off", "OFF\n4 1 0\n" + four + "3 0 1 2 1 1 1 1 1\n", 7);
     fails("a.off", "OFF\n4 1 0\n" + four + "3 0 1 2 red\n", 7);
     fails("a.off", "OFF\n4 1 0\n" + four + "3 0,1,2\n", 7);
+    fails("a.off", "OFF\n4 1 0\n" + four + "3 0 1\n2 5 5\n", 8);
     fails("a.obj", "v 0 0 0 1 1\n", 1);
     fails("a.obj", "v 0 0 0 1 1 1 1 1\n", 1);
     for (const char* corner : {"1/", "1//", "1/2/3/4", "1/x", "1.5", "1a", "/1"}) {
@@ -135,6 +136,9 @@ TEST(SurfaceWords, WhatStandsBehindNumbersWhereTheFormatHasIt) {
     };
     const std::string off = "OFF\n4 4 6\n0 0 0 # a\n" + three_nodes;
     EXPECT_EQ(notes_of("a.off", off + "3 0 2 1 255 0 0\n3 0 1 3 .1 .2 .3 1\n3 1 2 3 7\n3 2 0 3 # b\n").size(), 1);
+    // Corners on several lines: what is left on the last of them is the colour.
+    EXPECT_EQ(notes_of("a.off", off + "3\n0 2 1\n3 0 # c\n1 3 255 0 0\n3 1 2\n3 7\n3 2 0 3\n").size(), 1);
+    EXPECT_EQ(notes_of("a.off", off + "3 0\n2 1\n3 0\n1\n3\n3 1 2 3\n3 2 0 3\n").size(), 0);
     const std::string obj = "v 0 0 0 1 # a\nv 1 0 0 .5 .5 .5\nv 0 1 0 1 .5 .5 .5\nv 0 0 1\n";
     const Notes notes = notes_of("a.obj", obj + "f 1/1/1 3/2/2 2\nf 1//1 2//2 4\nf 2/1 3/1 4/1\nf -2 -4 -1\n");
     ASSERT_EQ(notes.size(), 1);

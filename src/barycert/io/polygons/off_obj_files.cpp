@@ -1,4 +1,6 @@
 // OFF (Geomview) and OBJ (Wavefront).
+#include <optional>
+
 #include "barycert/io/number_word.hpp"
 #include "barycert/io/polygons/polygons.hpp"
 
@@ -49,6 +51,8 @@ void check_corners(PlcText& in, Polygons& all) {
 }
 
 /// Shape of the file: OFF, the counts of points, polygons and edges, then a line for each point and each polygon.
+/// A polygon's corners may go on over more lines: their count says how many are taken. What then stands on the last of
+/// these lines is a colour.
 Polygons read_off(PlcText& in) {
     Polygons all;
     in.need_line("OFF");
@@ -64,11 +68,20 @@ Polygons read_off(PlcText& in) {
         in.need_end("three coordinates");
     }
     std::size_t colours = 0;
+    std::optional<std::size_t> continued;  // the first polygon whose corners stand on more than one line
     for (std::size_t i = 0; i < polygons; ++i) {
-        in.need_line("polygon", i, polygons);
+        const std::string what = continued ? "polygon " + std::to_string(*continued) +
+                                                 " takes corners from the line behind its own; then polygon"
+                                           : "polygon";
+        in.need_line(what, i, polygons);
         const std::size_t n = in.take_count("the number of a polygon's corners");
         if (n < 3) in.fail("cannot read", "a polygon of three or more corners", std::to_string(n));
         for (std::size_t k = 0; k < n; ++k) {
+            // Geomview reads words, wherever lines end. If a line lacks a corner instead, there are too few polygons.
+            if (in.words_left() == 0) {
+                in.need_line("corners of polygon", i, polygons);
+                if (!continued) continued = i;
+            }
             all.rings.push_back(in.take_integer("a polygon's corner"));
             if (const Mesh::Index corner = all.rings.back(); corner < 0 || static_cast<std::size_t>(corner) > nodes)
                 in.fail("no such node", nodes_of(nodes), std::to_string(corner));
