@@ -339,6 +339,46 @@ TEST_F(NearestInMaps, WhatIsExtrapolatedGoesOnFromTheBoundary) {
     }
 }
 
+/// 2^3 hexahedra; the field is the first coordinate, which the cells' own functions give back everywhere.
+Mesh warped_hexahedra(double by, const auto& uniform) {
+    Mesh mesh;
+    for (int k = 0; k < 3; ++k) {
+        for (int j = 0; j < 3; ++j) {
+            for (int i = 0; i < 3; ++i) {
+                for (const int x : {i, j, k}) mesh.points.push_back(x + uniform(-by, by));
+            }
+        }
+    }
+    for (const int k : {0, 9}) {
+        for (const int j : {0, 3}) {
+            for (const int i : {0, 1}) {
+                std::vector<Index> nodes;
+                for (const int corner : {0, 1, 4, 3, 9, 10, 13, 12}) nodes.push_back(i + j + k + corner);
+                add_shape(mesh, 12, nodes);
+            }
+        }
+    }
+    cut(mesh);
+    mesh.point_fields = {{"x", 1, {}}};
+    for (std::size_t i = 0; i < mesh.points.size(); i += 3) mesh.point_fields[0].data.push_back(mesh.points[i]);
+    return mesh;
+}
+
+TEST_F(NearestInMaps, WarpedCellsAreContinuedFar) {
+    for (const double by : {0.05, 0.15}) {
+        const Mesh mesh = warped_hexahedra(by, [&](double low, double high) { return uniform(low, high); });
+        const Sampler sampler =
+            Sampler::build(mesh, {}, {.interpolation = CellInterpolation::multilinear, .progress = {}}).value();
+        ASSERT_EQ(sampler.locator().unmapped_cells(), 0U);
+        const std::vector<double> points = points_around(mesh, 400, 0.6);
+        const Table rows = sampler.sample(points, {.outside = {Outside::extrapolate}}).value();
+        std::uint64_t others = 0;
+        for (std::size_t i = 0; i < rows.row_count(); ++i) others += rows.values[i] != points[3 * i] ? 1 : 0;
+        EXPECT_EQ(others, rows.counts.unmapped) << by;
+        EXPECT_LE(others, by < 0.1 ? 0U : 4U) << by;
+    }
+}
+
 TEST_F(NearestInMaps, AffineCellsAreContinuedEverywhere) {
     Mesh mesh;
     std::vector<Index> nodes;

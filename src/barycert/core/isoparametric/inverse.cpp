@@ -1,6 +1,7 @@
 #include "barycert/core/isoparametric/inverse.hpp"
 
 #include "barycert/core/isoparametric/component.hpp"
+#include "barycert/core/isoparametric/continuation.hpp"
 
 namespace barycert::core::isoparametric {
 namespace {
@@ -68,24 +69,6 @@ Evaluated evaluate_at(const Reference& of, const Places& places, const double* p
     return result;
 }
 
-/// Places on the straight way from what x is taken to, about, to the point: by the part of the way.
-auto way_from(const Reference& of, const Places& places, const Vector<double>& x, const double* point) {
-    std::array<double, max_nodes> n;
-    shape_functions(of, x, n, nullptr);
-    Vector<double> from{};
-    for (std::size_t k = 0; k < of.dimension(); ++k) {
-        for (std::size_t i = 0; i < of.nodes; ++i) {
-            const double share = n[i] / of.scale, *const other = places.other[i];
-            from[k] += other == nullptr ? share * places.at[i][k] : share / 2 * places.at[i][k] + share / 2 * other[k];
-        }
-    }
-    return [=, dimension = of.dimension()](double part) {
-        Vector<double> at{};
-        for (std::size_t k = 0; k < dimension; ++k) at[k] = from[k] * (1 - part) + point[k] * part;
-        return at;
-    };
-}
-
 }  // namespace
 
 Evaluated evaluate(const Reference& of, const Places& places, const double* point, std::uint64_t active,
@@ -102,24 +85,10 @@ Evaluated evaluate_beyond(const Reference& of, const Places& places, const doubl
     if (Inverse(of, places, point).exactly({0.1, 0.1, 0.1}))
         return evaluate_at(of, places, point, ~std::uint64_t{0}, values, components, out, true,
                            [](Inverse&) { return false; });
-    std::array<double, 3> x = from;
-    const auto way = way_from(of, places, from, point);
-    double done = 0, step = 1;
-    for (int tries = 0; tries < 200 && done < 1; ++tries) {
-        const double next = std::min(1.0, done + step);
-        const Vector<double> at = way(next);
-        Inverse inverse(of, places, next == 1 ? point : at.data());
-        if (inverse.search_from(x)) {
-            x = inverse.found();
-            done = next;
-            step *= 2;
-        } else if ((step /= 2) < 0x1p-7) {
-            return {};
-        }
-    }
-    if (done < 1) return {};
-    return evaluate_at(of, places, point, ~std::uint64_t{0}, values, components, out, true,
-                       [&](Inverse& inverse) { return inverse.search_from(x); });
+    return evaluate_at(of, places, point, ~std::uint64_t{0}, values, components, out, true, [&](Inverse& inverse) {
+        const auto place = continue_inverse(of, inverse, from);
+        return place && inverse.search_near(place->about, place->radius);
+    });
 }
 
 }  // namespace barycert::core::isoparametric

@@ -109,6 +109,19 @@ bool eliminate(Rows& a, std::size_t n) {
     return true;
 }
 
+/// Of the first n rows and columns, about; the others are 0.
+inline std::optional<Matrix> inverse_matrix(const Matrix& a, std::size_t n) {
+    std::array<std::array<double, 6>, 3> rows{};
+    for (std::size_t i = 0; i < n; ++i) {
+        std::copy_n(a[i].begin(), n, rows[i].begin());
+        rows[i][3 + i] = 1;
+    }
+    if (!eliminate(rows, n)) return std::nullopt;
+    Matrix out{};
+    for (std::size_t i = 0; i < n; ++i) std::copy_n(rows[i].begin() + 3, n, out[i].begin());
+    return out;
+}
+
 /// Whether a point of the reference cell may have these coordinates.
 template <class T>
 bool may_be_inside(const Reference& of, const std::array<Ball<T>, 3>& x) {
@@ -205,20 +218,16 @@ public:
         return false;
     }
 
-    /// Newton's method from x0, a place of the reference cell that is about taken to a place p0. False unless it is
-    /// proved that the inverse of the map can be continued from p0 along the straight way to the point, and gives what
-    /// is found: with D the distance of both x, the row sums of |1 - Y X'| are at most m <= 1/3 within 2 D of it. Then
-    /// the map is one to one there, and as (1 + m) D <= (1 - m) 2 D all that lies between p0 and the point is taken
-    /// from there.
-    bool search_from(const Vector<double>& from) {
-        Vector<double> x = from;
+    /// Newton's method from a place near one that is known to be the only one within `radius` of it that is taken to
+    /// the point, and wanted: then enclose() finds that one or nothing.
+    bool search_near(const Vector<double>& place, const Vector<double>& radius) {
+        Vector<double> x = place;
         if (d_ == 2) x[2] = 0;
         if (!newton(x)) return false;
         x_ = x;
-        double away = 0;
-        for (std::size_t k = 0; k < d_; ++k) away = std::max(away, std::abs(x[k] - from[k]));
-        // Both places are off by some roundings.
-        return contraction(2 * away * (1 + 0x1p-20) + 0x1p-30) <= 0.333;
+        for (std::size_t k = 0; k < d_; ++k)
+            alone_ = std::min(alone_, radius[k] * (1 - 0x1p-40) - std::abs(x[k] - place[k]) * (1 + 0x1p-40));
+        return alone_ > 0;
     }
 
     /// In the plane the third coordinate is 0.
@@ -256,7 +265,7 @@ public:
             if (step == 0) {
                 box = 4 * most + 0x1p-45;
                 m = contraction(box);
-                if (!(m < 0.25)) return false;
+                if (!(m < 0.25 && box <= alone_)) return false;
             }
             // Within the box of the first step: it started at its middle, and moved by less than half of it.
             const double before = radius;
@@ -370,14 +379,9 @@ private:
 
     /// Sets inverse_.
     bool invert(const Matrix& a) {
-        std::array<std::array<double, 6>, 3> rows{};
-        for (std::size_t i = 0; i < d_; ++i) {
-            std::copy_n(a[i].begin(), d_, rows[i].begin());
-            rows[i][3 + i] = 1;
-        }
-        if (!eliminate(rows, d_)) return false;
-        for (std::size_t i = 0; i < d_; ++i) std::copy_n(rows[i].begin() + 3, d_, inverse_[i].begin());
-        return true;
+        const std::optional<Matrix> found = inverse_matrix(a, d_);
+        if (found) inverse_ = *found;
+        return found.has_value();
     }
 
     /// The largest row sum of |1 - Y X'| over the box of that radius around x_.
@@ -469,6 +473,7 @@ private:
     const double* point_ = nullptr;
     std::array<Vector<TwoDoubles>, max_nodes> offset_;  ///< of nodes from the point, below 1
     Vector<double> x_{};
+    double alone_ = std::numeric_limits<double>::infinity();  ///< of search_near()
     Matrix inverse_{};
 };
 
