@@ -13,7 +13,7 @@
 #include <vtkUnstructuredGrid.h>
 
 #include "barycert/environment.hpp"
-#include "barycert/pieces/distribution.hpp"
+#include "mesh/pieces/distribution.hpp"
 #include "vtk/probe_arrays.hpp"
 
 namespace barycert::in_vtk {

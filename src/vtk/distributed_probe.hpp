@@ -5,7 +5,7 @@
 #include <vtkMultiProcessController.h>
 #include <vtkSmartPointer.h>
 
-#include "barycert/pieces/piece.hpp"
+#include "mesh/pieces/piece.hpp"
 
 class vtkDataSet;
 
@@ -57,7 +57,7 @@ struct ProbeReport {
 };
 
 /// Every rank calls it. Agrees on what the pieces are pieces of (dimension, plane, numbering, arrays); then as
-/// pieces/distribution.hpp says. Gives `output` the arrays of a probe at the points of `input`. An Error is the same on
+/// mesh/pieces/distribution.hpp says. Gives `output` the arrays of a probe at the points of `input`. An Error is the same on
 /// all ranks; `output` then may have some of the arrays. `ready`: an Error if this rank has no right input or source. A
 /// null source is an empty piece.
 Status probe_pieces(pieces::Exchange& exchange, const ProbeSettings& settings, const Status& ready, vtkDataSet* input,

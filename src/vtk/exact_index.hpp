@@ -4,7 +4,7 @@
 #include <vtkType.h>
 
 #include "barycert/io.hpp"
-#include "barycert/pieces/piece.hpp"
+#include "mesh/pieces/piece.hpp"
 #include "barycert/surface_locator.hpp"
 
 class vtkCell;

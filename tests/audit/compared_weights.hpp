@@ -1,7 +1,7 @@
 /// Weights alone, compared with the oracle's.
 #pragma once
 
-#include "barycert/audit/asking.hpp"
+#include "audit/asking.hpp"
 
 namespace barycert::audit {
 

@@ -15,10 +15,10 @@
 #include <new>
 
 #include "audit_helpers.hpp"
-#include "barycert/audit/asking.hpp"
-#include "barycert/kernels/channel.hpp"
-#include "processes.hpp"
-#include "sanitized.hpp"
+#include "audit/asking.hpp"
+#include "audit/kernels/channel.hpp"
+#include "tests/processes.hpp"
+#include "tests/sanitized.hpp"
 
 namespace barycert::audit {
 namespace {

@@ -1,7 +1,7 @@
 // Each built family does what its line says: checked with the oracle on a few hundred of its cases.
 
 #include "barycert/audit.hpp"
-#include "barycert/base/random.hpp"
+#include "core/base/random.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "audit_helpers.hpp"
-#include "barycert/audit/gap_points.hpp"
+#include "audit/gap_points.hpp"
 #include "barycert/audit_report.hpp"
 #include "barycert/weights.hpp"
 

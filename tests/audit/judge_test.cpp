@@ -1,6 +1,6 @@
 // Who decides: the core never on itself, and a disagreement ends the audit.
 
-#include "barycert/audit/judge.hpp"
+#include "audit/judge.hpp"
 
 #include <gtest/gtest.h>
 

@@ -10,7 +10,7 @@
 
 #include "barycert/io.hpp"
 #include "barycert/oracle.hpp"
-#include "mesh/curved_mesh.hpp"
+#include "tests/mesh/curved_mesh.hpp"
 
 namespace barycert {
 namespace {

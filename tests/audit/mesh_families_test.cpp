@@ -10,10 +10,10 @@
 #include <set>
 
 #include "audit_helpers.hpp"
-#include "barycert/audit/gap_points.hpp"
-#include "barycert/audit/recipes.hpp"
-#include "barycert/base/finite.hpp"
-#include "barycert/base/random.hpp"
+#include "audit/gap_points.hpp"
+#include "audit/recipes.hpp"
+#include "core/base/finite.hpp"
+#include "core/base/random.hpp"
 
 namespace barycert::audit {
 namespace {

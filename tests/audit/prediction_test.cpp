@@ -1,5 +1,5 @@
 #include "barycert/audit.hpp"
-#include "barycert/base/random.hpp"
+#include "core/base/random.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
-#include "audit/audit_helpers.hpp"
-#include "audit/compared_weights.hpp"
+#include "tests/audit/audit_helpers.hpp"
+#include "tests/audit/compared_weights.hpp"
 #include "barycert/oracle.hpp"
 #include "barycert/weights.hpp"
 

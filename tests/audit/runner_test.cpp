@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "audit_helpers.hpp"
-#include "barycert/audit/block.hpp"
+#include "audit/block.hpp"
 #include "barycert/audit_report.hpp"
 
 namespace barycert::audit {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <string>
 
-#include "barycert/base/random.hpp"
+#include "core/base/random.hpp"
 #include "barycert/oracle.hpp"
 
 namespace barycert::audit {

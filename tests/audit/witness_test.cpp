@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "audit_helpers.hpp"
-#include "barycert/audit/recipes.hpp"
+#include "audit/recipes.hpp"
 #include "barycert/audit_report.hpp"
 #include "compared_weights.hpp"
 

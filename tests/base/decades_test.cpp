@@ -1,11 +1,11 @@
-#include "barycert/base/decades.hpp"
+#include "core/base/decades.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "barycert/base/text.hpp"
+#include "core/base/text.hpp"
 
 namespace barycert::base {
 namespace {

@@ -1,12 +1,12 @@
 // Names in a folder.
 
-#include "barycert/base/nearest_name.hpp"
+#include "core/base/nearest_name.hpp"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
 
-#include "scratch.hpp"
+#include "tests/scratch.hpp"
 
 namespace barycert::base {
 namespace {

@@ -1,5 +1,5 @@
 // Files that are read: regular ones, pipes with and without writers, and what is neither.
-#include "barycert/base/input_file.hpp"
+#include "files/input_file.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>

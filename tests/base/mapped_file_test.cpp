@@ -1,8 +1,8 @@
-#include "barycert/base/input_file.hpp"
+#include "files/input_file.hpp"
 
 #include <sys/stat.h>
 
-#include "io/tetgen/mesh_files.hpp"
+#include "tests/io/tetgen/mesh_files.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -1,4 +1,4 @@
-#include "barycert/base/named_file.hpp"
+#include "files/named_file.hpp"
 
 #include <unistd.h>
 

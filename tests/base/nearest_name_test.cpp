@@ -1,6 +1,6 @@
 // The name meant by a mistyped word: against distances counted by hand and a slow twin that tries all edits.
 
-#include "barycert/base/nearest_name.hpp"
+#include "core/base/nearest_name.hpp"
 
 #include <set>
 #include <string>

@@ -1,4 +1,4 @@
-#include "barycert/base/output_file.hpp"
+#include "files/output_file.hpp"
 
 #include <fcntl.h>
 #include <sys/resource.h>

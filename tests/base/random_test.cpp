@@ -1,4 +1,4 @@
-#include "barycert/base/random.hpp"
+#include "core/base/random.hpp"
 
 #include <algorithm>
 #include <array>

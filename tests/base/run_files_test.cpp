@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "barycert/base/input_file.hpp"
-#include "barycert/base/output_file.hpp"
-#include "scratch.hpp"
+#include "files/input_file.hpp"
+#include "files/output_file.hpp"
+#include "tests/scratch.hpp"
 
 namespace barycert::base {
 namespace {

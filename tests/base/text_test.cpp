@@ -1,4 +1,4 @@
-#include "barycert/base/text.hpp"
+#include "core/base/text.hpp"
 
 #include <gmpxx.h>
 
@@ -9,9 +9,9 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "barycert/base/random.hpp"
-#include "exact/second_path.hpp"
-#include "limits.hpp"
+#include "core/base/random.hpp"
+#include "tests/exact/second_path.hpp"
+#include "tests/limits.hpp"
 
 namespace barycert {
 namespace {

@@ -1,4 +1,4 @@
-#include "barycert/base/ulp.hpp"
+#include "core/base/ulp.hpp"
 
 #include <gmpxx.h>
 
@@ -7,10 +7,10 @@
 
 #include <gtest/gtest.h>
 
-#include "barycert/base/random.hpp"
-#include "barycert/base/text.hpp"
-#include "exact/second_path.hpp"
-#include "limits.hpp"
+#include "core/base/random.hpp"
+#include "core/base/text.hpp"
+#include "tests/exact/second_path.hpp"
+#include "tests/limits.hpp"
 
 namespace barycert {
 namespace {

@@ -20,8 +20,8 @@
 #include <vector>
 
 #include "barycert/audit.hpp"
-#include "barycert/base/random.hpp"
-#include "barycert/core/blocks.hpp"
+#include "core/base/random.hpp"
+#include "core/blocks.hpp"
 #include "barycert/oracle.hpp"
 #include "barycert/predicates.hpp"
 #include "barycert/weights.hpp"

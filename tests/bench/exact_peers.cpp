@@ -1,7 +1,7 @@
 #include "exact_peers.hpp"
 
 // Before Highway's headers.
-#include "barycert/core/simd_targets.hpp"
+#include "core/simd_targets.hpp"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "exact_peers.cpp"

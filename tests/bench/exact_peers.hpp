@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-#include "barycert/core/lanes.hpp"
+#include "core/lanes.hpp"
 #include "barycert/predicates.hpp"
 
 namespace barycert::peers {

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <limits>
 
-#include "core/extremes.hpp"
+#include "tests/core/extremes.hpp"
 #include "exact_table.hpp"
 
 namespace {

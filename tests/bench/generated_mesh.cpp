@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
-#include "barycert/base/large_pages.hpp"
-#include "barycert/base/random.hpp"
-#include "barycert/io/formats.hpp"
-#include "mesh/curved_mesh.hpp"
-#include "mesh/whole_cells.hpp"
+#include "core/base/large_pages.hpp"
+#include "core/base/random.hpp"
+#include "io/formats.hpp"
+#include "tests/mesh/curved_mesh.hpp"
+#include "tests/mesh/whole_cells.hpp"
 
 namespace barycert::bench {
 namespace {

@@ -12,8 +12,8 @@
 #include <sstream>
 #include <utility>
 
-#include "barycert/base/random.hpp"
-#include "barycert/base/text.hpp"
+#include "core/base/random.hpp"
+#include "core/base/text.hpp"
 #include "barycert/grid.hpp"
 #include "barycert/io.hpp"
 #include "job_process.hpp"

@@ -22,15 +22,15 @@
 #include <utility>
 #include <vector>
 
-#include "barycert/base/descriptor.hpp"
-#include "barycert/base/large_pages.hpp"
-#include "barycert/base/random.hpp"
+#include "files/descriptor.hpp"
+#include "core/base/large_pages.hpp"
+#include "core/base/random.hpp"
 #include "barycert/environment.hpp"
 #include "require.hpp"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "limits_bench.cpp"
-#include "barycert/core/foreach_target.hpp"
+#include "core/foreach_target.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace barycert::bench::HWY_NAMESPACE {

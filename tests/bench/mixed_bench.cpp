@@ -27,15 +27,15 @@
 #include <string>
 #include <string_view>
 
-#include "barycert/base/large_pages.hpp"
-#include "barycert/base/random.hpp"
-#include "barycert/base/text.hpp"
+#include "core/base/large_pages.hpp"
+#include "core/base/random.hpp"
+#include "core/base/text.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/grid.hpp"
 #include "barycert/io.hpp"
 #include "barycert/verify.hpp"
 #include "generated_mesh.hpp"
-#include "mesh/whole_cells.hpp"
+#include "tests/mesh/whole_cells.hpp"
 #include "peak_memory.hpp"
 #include "sample_contest.hpp"
 #include "sample_peers.hpp"

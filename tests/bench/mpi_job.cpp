@@ -36,7 +36,7 @@
 #include <vtkSmartPointer.h>
 #include <vtkUnstructuredGrid.h>
 
-#include "barycert/base/random.hpp"
+#include "core/base/random.hpp"
 #include "cube_mesh.hpp"
 #include "peak_memory.hpp"
 #include "require.hpp"

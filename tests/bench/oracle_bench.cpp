@@ -14,7 +14,7 @@
 #include <cstdlib>
 #include <vector>
 
-#include "barycert/base/random.hpp"
+#include "core/base/random.hpp"
 #include "barycert/oracle.hpp"
 #include "numerators.hpp"
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "barycert/base/random.hpp"
+#include "core/base/random.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/perspective.hpp"
 #include "exact_table.hpp"

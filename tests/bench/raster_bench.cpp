@@ -10,7 +10,7 @@
 #include <cstdlib>
 #include <vector>
 
-#include "barycert/base/random.hpp"
+#include "core/base/random.hpp"
 #include "barycert/raster.hpp"
 #include "exact_table.hpp"
 #ifdef BARYCERT_WITH_OSMESA

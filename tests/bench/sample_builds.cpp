@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "barycert/base/random.hpp"
+#include "core/base/random.hpp"
 #include "barycert/check.hpp"
 #include "sample_rounds.hpp"
 

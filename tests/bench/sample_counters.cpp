@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-#include "barycert/base/random.hpp"
+#include "core/base/random.hpp"
 #include "job_process.hpp"
 #include "sample_peers.hpp"
 #include "sample_subject.hpp"

@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <utility>
 
-#include "barycert/base/random.hpp"
+#include "core/base/random.hpp"
 #include "sample_table.hpp"
 
 namespace barycert::bench {

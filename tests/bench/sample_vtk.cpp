@@ -13,10 +13,10 @@
 
 #include <limits>
 
-#include "mesh/whole_cells.hpp"
+#include "tests/mesh/whole_cells.hpp"
 #include "sample_peers.hpp"
 #include "sample_subject.hpp"
-#include "vtk_grid.hpp"
+#include "tests/vtk_grid.hpp"
 
 namespace barycert::bench {
 

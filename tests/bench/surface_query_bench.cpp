@@ -15,10 +15,10 @@
 #include <numeric>
 #include <random>
 
-#include "barycert/base/arena.hpp"
+#include "mesh/threads/arena.hpp"
 #include "barycert/check.hpp"
-#include "barycert/index/open_sheets.hpp"
-#include "barycert/index/triangles.hpp"
+#include "mesh/index/open_sheets.hpp"
+#include "mesh/index/triangles.hpp"
 #include "barycert/surface_locator.hpp"
 #include "require.hpp"
 #include "surface_query_peers.hpp"

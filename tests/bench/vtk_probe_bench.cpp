@@ -29,14 +29,14 @@
 #include <vtkStaticCellLocator.h>
 #include <vtkUnstructuredGrid.h>
 
-#include "barycert/base/random.hpp"
+#include "core/base/random.hpp"
 #include "barycert/sampler.hpp"
 #include "cube_mesh.hpp"
-#include "mesh/whole_cells.hpp"
+#include "tests/mesh/whole_cells.hpp"
 #include "require.hpp"
 #include "vtkBarycertLocator.h"
 #include "vtkBarycertProbe.h"
-#include "vtk_grid.hpp"
+#include "tests/vtk_grid.hpp"
 
 namespace {
 

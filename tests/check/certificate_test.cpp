@@ -4,7 +4,7 @@
 #include <bit>
 #include <limits>
 
-#include "check/meshes.hpp"
+#include "tests/check/meshes.hpp"
 
 namespace barycert::testing {
 namespace {

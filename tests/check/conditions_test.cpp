@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <limits>
 
-#include "barycert/mesh/adjacency.hpp"
-#include "check/judge.hpp"
-#include "check/meshes.hpp"
+#include "mesh/adjacency.hpp"
+#include "tests/check/judge.hpp"
+#include "tests/check/meshes.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "barycert/io.hpp"
-#include "check/meshes.hpp"
-#include "limits.hpp"
+#include "tests/check/meshes.hpp"
+#include "tests/limits.hpp"
 
 namespace barycert::testing {
 namespace {

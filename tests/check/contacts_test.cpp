@@ -5,11 +5,11 @@
 #include <bit>
 #include <cmath>
 
-#include "check/judge.hpp"
-#include "check/meshes.hpp"
-#include "check/random_complexes.hpp"
-#include "check/signs.hpp"
-#include "sanitized.hpp"
+#include "tests/check/judge.hpp"
+#include "tests/check/meshes.hpp"
+#include "tests/check/random_complexes.hpp"
+#include "tests/check/signs.hpp"
+#include "tests/sanitized.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -1,11 +1,11 @@
-#include "check/defects.hpp"
+#include "tests/check/defects.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "barycert/mesh/adjacency.hpp"
-#include "check/signs.hpp"
+#include "mesh/adjacency.hpp"
+#include "tests/check/signs.hpp"
 
 namespace barycert::testing {
 namespace {

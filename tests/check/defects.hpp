@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "check/meshes.hpp"
+#include "tests/check/meshes.hpp"
 
 namespace barycert::testing {
 

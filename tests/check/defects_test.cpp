@@ -1,8 +1,8 @@
 // Defects planted into good meshes at random places are found and named, alone and in pairs.
 #include <gtest/gtest.h>
 
-#include "check/defects.hpp"
-#include "check/judge.hpp"
+#include "tests/check/defects.hpp"
+#include "tests/check/judge.hpp"
 
 namespace barycert::testing {
 namespace {

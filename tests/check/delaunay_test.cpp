@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "barycert/io.hpp"
-#include "barycert/mesh/adjacency.hpp"
-#include "check/meshes.hpp"
+#include "mesh/adjacency.hpp"
+#include "tests/check/meshes.hpp"
 
 namespace barycert::testing {
 namespace {

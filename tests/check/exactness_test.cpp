@@ -6,10 +6,10 @@
 #include <bit>
 #include <cmath>
 
-#include "check/judge.hpp"
-#include "check/meshes.hpp"
-#include "check/random_complexes.hpp"
-#include "check/signs.hpp"
+#include "tests/check/judge.hpp"
+#include "tests/check/meshes.hpp"
+#include "tests/check/random_complexes.hpp"
+#include "tests/check/signs.hpp"
 
 namespace barycert::testing {
 namespace {

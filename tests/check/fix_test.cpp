@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "barycert/mesh/adjacency.hpp"
-#include "check/meshes.hpp"
-#include "io/tetgen/mesh_files.hpp"
+#include "mesh/adjacency.hpp"
+#include "tests/check/meshes.hpp"
+#include "tests/io/tetgen/mesh_files.hpp"
 
 namespace barycert::testing {
 namespace {

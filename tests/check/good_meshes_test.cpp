@@ -4,8 +4,8 @@
 #include <filesystem>
 
 #include "barycert/io.hpp"
-#include "barycert/mesh/adjacency.hpp"
-#include "check/meshes.hpp"
+#include "mesh/adjacency.hpp"
+#include "tests/check/meshes.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -4,10 +4,10 @@
 #include <chrono>
 #include <cmath>
 
-#include "barycert/check/stages.hpp"
-#include "check/meshes.hpp"
-#include "check/signs.hpp"
-#include "sanitized.hpp"
+#include "mesh/check/stages.hpp"
+#include "tests/check/meshes.hpp"
+#include "tests/check/signs.hpp"
+#include "tests/sanitized.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -1,4 +1,4 @@
-#include "check/judge.hpp"
+#include "tests/check/judge.hpp"
 
 #include <CGAL/Gmpz.h>
 

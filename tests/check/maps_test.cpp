@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <map>
 
-#include "barycert/core/isoparametric/shape_functions.hpp"
-#include "barycert/mesh/pulling.hpp"
-#include "check/meshes.hpp"
+#include "core/isoparametric/shape_functions.hpp"
+#include "mesh/pulling.hpp"
+#include "tests/check/meshes.hpp"
 
 namespace barycert::testing {
 namespace {

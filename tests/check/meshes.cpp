@@ -1,4 +1,4 @@
-#include "check/meshes.hpp"
+#include "tests/check/meshes.hpp"
 
 #include <algorithm>
 #include <cstddef>

@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "barycert/mesh/adjacency.hpp"
-#include "check/meshes.hpp"
+#include "mesh/adjacency.hpp"
+#include "tests/check/meshes.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -10,10 +10,10 @@
 
 #include <gtest/gtest.h>
 
-#include "barycert/mesh/adjacency.hpp"
-#include "barycert/mesh/mid_edges.hpp"
-#include "io/tetgen/mesh_files.hpp"
-#include "io/tetgen/random_mesh.hpp"
+#include "mesh/adjacency.hpp"
+#include "mesh/mid_edges.hpp"
+#include "tests/io/tetgen/mesh_files.hpp"
+#include "tests/io/tetgen/random_mesh.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -1,10 +1,10 @@
-#include "check/random_complexes.hpp"
+#include "tests/check/random_complexes.hpp"
 
 #include <cstddef>
 #include <vector>
 
-#include "check/judge.hpp"
-#include "check/meshes.hpp"
+#include "tests/check/judge.hpp"
+#include "tests/check/meshes.hpp"
 
 namespace barycert::testing {
 namespace {

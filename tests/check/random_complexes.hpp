@@ -1,7 +1,7 @@
 /// Small random meshes, good and bad ones, on a small lattice so that degeneracies abound.
 #pragma once
 
-#include "barycert/base/random.hpp"
+#include "core/base/random.hpp"
 #include "barycert/mesh.hpp"
 
 namespace barycert::testing {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "check/meshes.hpp"
+#include "tests/check/meshes.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstddef>
 
 #include "barycert/mesh.hpp"
-#include "exact/second_path.hpp"
+#include "tests/exact/second_path.hpp"
 
 namespace barycert::testing {
 

@@ -9,7 +9,7 @@
 #include <set>
 
 #include "barycert/check.hpp"
-#include "check/surfaces.hpp"
+#include "tests/check/surfaces.hpp"
 
 namespace barycert::testing {
 namespace {

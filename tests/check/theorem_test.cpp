@@ -5,9 +5,9 @@
 #include <limits>
 #include <map>
 
-#include "check/judge.hpp"
-#include "check/meshes.hpp"
-#include "check/random_complexes.hpp"
+#include "tests/check/judge.hpp"
+#include "tests/check/meshes.hpp"
+#include "tests/check/random_complexes.hpp"
 
 namespace barycert::testing {
 namespace {

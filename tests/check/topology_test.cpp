@@ -1,8 +1,8 @@
 // Domains of several parts, with cavities and tunnels, and such as touch themselves: certified, and counted rightly.
 #include <gtest/gtest.h>
 
-#include "check/judge.hpp"
-#include "check/meshes.hpp"
+#include "tests/check/judge.hpp"
+#include "tests/check/meshes.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "barycert/io.hpp"
-#include "check/meshes.hpp"
-#include "check/random_complexes.hpp"
+#include "tests/check/meshes.hpp"
+#include "tests/check/random_complexes.hpp"
 
 namespace barycert::testing {
 namespace {

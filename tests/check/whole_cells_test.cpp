@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "barycert/check.hpp"
-#include "mesh/shaped_mesh.hpp"
+#include "tests/mesh/shaped_mesh.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -6,8 +6,8 @@
 #include <csignal>
 
 #include "process.hpp"
-#include "processes.hpp"
-#include "sanitized.hpp"
+#include "tests/processes.hpp"
+#include "tests/sanitized.hpp"
 
 namespace barycert::cli_test {
 namespace {

@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "barycert/io.hpp"
-#include "mesh/curved_mesh.hpp"
+#include "tests/mesh/curved_mesh.hpp"
 #include "process.hpp"
 #include "sample_meshes.hpp"
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "scratch.hpp"
+#include "tests/scratch.hpp"
 
 namespace barycert::cli_test {
 

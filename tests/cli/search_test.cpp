@@ -6,7 +6,7 @@
 
 #include "process.hpp"
 #include "sample_meshes.hpp"
-#include "sanitized.hpp"
+#include "tests/sanitized.hpp"
 
 namespace barycert::cli_test {
 namespace {

@@ -1,6 +1,6 @@
 /* A user's kernel of tetrahedra, the textbook's four signed volumes; with USER_KERNEL_SWAPS the first two weights
  * change places and are certified: a fault that an audit must find at once. */
-#include "audit/signed_volumes.h"
+#include "tests/audit/signed_volumes.h"
 #include "barycert/kernel.h"
 
 void barycert_kernel_describe(struct barycert_kernel_info* info) {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "barycert/io.hpp"
-#include "mesh/curved_mesh.hpp"
+#include "tests/mesh/curved_mesh.hpp"
 #include "process.hpp"
 #include "sample_meshes.hpp"
 

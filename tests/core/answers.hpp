@@ -9,10 +9,10 @@
 #include <thread>
 #include <vector>
 
-#include "barycert/base/random.hpp"
+#include "core/base/random.hpp"
 #include "barycert/predicates.hpp"
 #include "barycert/weights.hpp"
-#include "core/environments.hpp"
+#include "tests/core/environments.hpp"
 
 namespace barycert::testing_answers {
 

@@ -5,8 +5,8 @@
 #include <type_traits>
 
 #include "barycert/predicates.hpp"
-#include "core/extremes.hpp"
-#include "core/sphere_cases.hpp"
+#include "tests/core/extremes.hpp"
+#include "tests/core/sphere_cases.hpp"
 
 namespace barycert {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/rational.hpp"
+#include "tests/core/rational.hpp"
 
 namespace barycert {
 namespace {

@@ -7,6 +7,6 @@ core_sources() {
         core/inverse core/predicates core/quotient core/weight_signs; do
         echo "#include \"barycert/$name.cpp\""
     done >"$2/joined.cpp"
-    core=$1/src/barycert/core
+    core=$1/src/core
     echo "$2/joined.cpp $core/weights.cpp $core/lanes.cpp $core/field_lanes.cpp $1/tests/core/same_bytes.cpp"
 }

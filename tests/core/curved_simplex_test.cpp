@@ -5,9 +5,9 @@
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <random>
 
-#include "barycert/core/isoparametric/inverse.hpp"
-#include "barycert/core/isoparametric/lanes.hpp"
-#include "barycert/core/isoparametric/newton.hpp"
+#include "core/isoparametric/inverse.hpp"
+#include "core/isoparametric/lanes.hpp"
+#include "core/isoparametric/newton.hpp"
 
 namespace barycert::core::isoparametric {
 namespace {

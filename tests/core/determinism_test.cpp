@@ -4,7 +4,7 @@
 
 #include "barycert/environment.hpp"
 #include "barycert/weights.hpp"
-#include "core/answers.hpp"
+#include "tests/core/answers.hpp"
 
 namespace barycert {
 namespace {

@@ -2,10 +2,10 @@
 // rationals where they claim to be exact, within the stated bounds elsewhere.
 #include <gtest/gtest.h>
 
-#include "core/rational.hpp"
+#include "tests/core/rational.hpp"
 
 // Before Highway's headers.
-#include "barycert/core/simd_targets.hpp"
+#include "core/simd_targets.hpp"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/error_free_test.cpp"
@@ -13,7 +13,7 @@
 // After foreach_target.h.
 #include <hwy/highway.h>
 
-#include "barycert/core/refinement-inl.hpp"
+#include "core/refinement-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace barycert::core {
@@ -100,8 +100,8 @@ bool refined(Simplex s, const double* vertices, const double* point, double* wei
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-#include "exact/cases.hpp"
-#include "exact/second_path.hpp"
+#include "tests/exact/cases.hpp"
+#include "tests/exact/second_path.hpp"
 
 namespace barycert::core {
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "barycert/barycert.hpp"
-#include "barycert/base/random.hpp"
+#include "core/base/random.hpp"
 
 namespace barycert::testing_extremes {
 

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "barycert/base/random.hpp"
-#include "barycert/base/text.hpp"
+#include "core/base/random.hpp"
+#include "core/base/text.hpp"
 #include "barycert/simplex.hpp"
-#include "exact/cases.hpp"
-#include "exact/second_path.hpp"
+#include "tests/exact/cases.hpp"
+#include "tests/exact/second_path.hpp"
 
 namespace barycert::testing_fields {
 

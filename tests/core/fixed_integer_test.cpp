@@ -1,8 +1,8 @@
 // Two's complement of fixed width against GMP, and doubles brought to a common unit.
-#include "barycert/core/integer.hpp"
+#include "core/integer.hpp"
 
-#include "barycert/core/scaled_double.hpp"
-#include "core/rational.hpp"
+#include "core/scaled_double.hpp"
+#include "tests/core/rational.hpp"
 
 namespace barycert::core {
 namespace {

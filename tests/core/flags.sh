@@ -21,7 +21,7 @@ gnu_alone=-fsingle-precision-constant
 clang_alone='-fapprox-func -fno-honor-nans -fno-honor-infinities -ffp-model=fast'
 
 cat >"$build/with_header.cpp" <<'EOF'
-#include "barycert/base/strict_math.hpp"
+#include "core/base/strict_math.hpp"
 double f(double a, double b, double c) { return (a + b) + c / b; }
 EOF
 grep -v include "$build/with_header.cpp" >"$build/without_header.cpp"

@@ -1,7 +1,7 @@
 // Gradients in batches: those of single calls on every target, tiers, counts, errors.
 #include "barycert/environment.hpp"
-#include "core/environments.hpp"
-#include "core/gradient_cases.hpp"
+#include "tests/core/environments.hpp"
+#include "tests/core/gradient_cases.hpp"
 
 namespace barycert {
 namespace {

@@ -4,10 +4,10 @@
 #include <gtest/gtest.h>
 
 #include "barycert/environment.hpp"
-#include "core/rational.hpp"
+#include "tests/core/rational.hpp"
 
 // Before Highway's headers.
-#include "barycert/core/simd_targets.hpp"
+#include "core/simd_targets.hpp"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/gradient_bound_test.cpp"
@@ -15,7 +15,7 @@
 // After foreach_target.h.
 #include <hwy/highway.h>
 
-#include "barycert/core/gradient-inl.hpp"
+#include "core/gradient-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace barycert::core {
@@ -50,7 +50,7 @@ bool refined_gradients(Simplex s, const double* vertices, const double* values, 
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-#include "core/field_cases.hpp"
+#include "tests/core/field_cases.hpp"
 
 namespace barycert::core {
 

@@ -3,8 +3,8 @@
 
 #include "barycert/oracle.hpp"
 #include "barycert/weights.hpp"
-#include "core/field_cases.hpp"
-#include "core/rational.hpp"
+#include "tests/core/field_cases.hpp"
+#include "tests/core/rational.hpp"
 
 namespace barycert::testing_fields {
 

@@ -1,8 +1,8 @@
 // Law G1 of gradients: against the oracle and against exact rationals rounded by the definition.
 #include <algorithm>
 
-#include "barycert/core/exact_tier.hpp"
-#include "core/gradient_cases.hpp"
+#include "core/exact_tier.hpp"
+#include "tests/core/gradient_cases.hpp"
 
 namespace barycert::core {
 namespace {

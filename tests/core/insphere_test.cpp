@@ -5,9 +5,9 @@
 #include <numeric>
 #include <vector>
 
-#include "core/environments.hpp"
-#include "core/rational.hpp"
-#include "core/sphere_cases.hpp"
+#include "tests/core/environments.hpp"
+#include "tests/core/rational.hpp"
+#include "tests/core/sphere_cases.hpp"
 
 namespace barycert {
 namespace {

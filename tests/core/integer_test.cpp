@@ -1,7 +1,7 @@
 // Integers of the last tier against GMP, at every length up to the capacity.
-#include "barycert/core/integer.hpp"
+#include "core/integer.hpp"
 
-#include "core/rational.hpp"
+#include "tests/core/rational.hpp"
 
 namespace barycert::core {
 namespace {

@@ -1,8 +1,8 @@
 // Values on isoparametric cells against Newton's method in 100 digits with shape functions written apart, and against
 // rational numbers where the point of the reference cell is known.
-#include "barycert/core/isoparametric/ball.hpp"
-#include "barycert/core/isoparametric/inverse.hpp"
-#include "barycert/core/isoparametric/lanes.hpp"
+#include "core/isoparametric/ball.hpp"
+#include "core/isoparametric/inverse.hpp"
+#include "core/isoparametric/lanes.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,8 +4,8 @@
 
 #include <random>
 
-#include "barycert/core/isoparametric/bernstein.hpp"
-#include "barycert/core/isoparametric/newton.hpp"
+#include "core/isoparametric/bernstein.hpp"
+#include "core/isoparametric/newton.hpp"
 
 namespace barycert::core::isoparametric {
 namespace {

@@ -5,10 +5,10 @@
 
 #include "barycert/environment.hpp"
 #include "barycert/perspective.hpp"
-#include "core/rational.hpp"
+#include "tests/core/rational.hpp"
 
 // Before Highway's headers.
-#include "barycert/core/simd_targets.hpp"
+#include "core/simd_targets.hpp"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/perspective_bound_test.cpp"
@@ -16,7 +16,7 @@
 // After foreach_target.h.
 #include <hwy/highway.h>
 
-#include "barycert/core/perspective-inl.hpp"
+#include "core/perspective-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace barycert::core {
@@ -45,8 +45,8 @@ void perspective_quotients(const double* vertices, const double* point, const do
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-#include "exact/cases.hpp"
-#include "exact/second_path.hpp"
+#include "tests/exact/cases.hpp"
+#include "tests/exact/second_path.hpp"
 
 namespace barycert::core {
 

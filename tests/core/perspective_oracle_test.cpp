@@ -3,7 +3,7 @@
 
 #include "barycert/oracle.hpp"
 #include "barycert/perspective.hpp"
-#include "exact/cases.hpp"
+#include "tests/exact/cases.hpp"
 
 namespace barycert {
 namespace {

@@ -7,12 +7,12 @@
 #include <algorithm>
 #include <optional>
 
-#include "barycert/core/exact_tier.hpp"
+#include "core/exact_tier.hpp"
 #include "barycert/environment.hpp"
-#include "core/field_cases.hpp"
-#include "core/rational.hpp"
-#include "exact/cases.hpp"
-#include "exact/second_path.hpp"
+#include "tests/core/field_cases.hpp"
+#include "tests/core/rational.hpp"
+#include "tests/exact/cases.hpp"
+#include "tests/exact/second_path.hpp"
 
 namespace barycert {
 namespace {

@@ -1,7 +1,7 @@
 // Quadratic fields in batches: the values of single calls on every target, tiers, counts, errors.
 #include "barycert/environment.hpp"
-#include "core/environments.hpp"
-#include "core/quadratic_cases.hpp"
+#include "tests/core/environments.hpp"
+#include "tests/core/quadratic_cases.hpp"
 
 namespace barycert {
 namespace {

@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 
 #include "barycert/environment.hpp"
-#include "core/rational.hpp"
+#include "tests/core/rational.hpp"
 
 // Before Highway's headers.
-#include "barycert/core/simd_targets.hpp"
+#include "core/simd_targets.hpp"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/quadratic_bound_test.cpp"
@@ -14,7 +14,7 @@
 // After foreach_target.h.
 #include <hwy/highway.h>
 
-#include "barycert/core/quadratic-inl.hpp"
+#include "core/quadratic-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace barycert::core {
@@ -81,7 +81,7 @@ bool value_from_weights(Simplex s, const double* weights, const double* correcti
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-#include "core/field_cases.hpp"
+#include "tests/core/field_cases.hpp"
 
 namespace barycert::core {
 

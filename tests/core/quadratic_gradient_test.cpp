@@ -1,7 +1,7 @@
 // Gradients of quadratic fields: against exact rationals by the product rule, rounded by the definition.
 #include <limits>
 
-#include "core/quadratic_cases.hpp"
+#include "tests/core/quadratic_cases.hpp"
 
 namespace barycert::core {
 namespace {

@@ -1,6 +1,6 @@
 // Laws V1 and V2 of quadratic fields: against the oracle and against exact rationals rounded by the definition.
-#include "barycert/core/exact_tier.hpp"
-#include "core/quadratic_cases.hpp"
+#include "core/exact_tier.hpp"
+#include "tests/core/quadratic_cases.hpp"
 
 namespace barycert::core {
 namespace {

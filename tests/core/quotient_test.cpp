@@ -1,7 +1,7 @@
 // Quotients and integers rounded to doubles, held against the definition of rounding.
-#include "barycert/core/integer.hpp"
+#include "core/integer.hpp"
 
-#include "core/rational.hpp"
+#include "tests/core/rational.hpp"
 
 namespace barycert::core {
 namespace {

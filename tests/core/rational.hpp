@@ -12,9 +12,9 @@
 
 #include <gtest/gtest.h>
 
-#include "barycert/base/random.hpp"
-#include "barycert/base/text.hpp"
-#include "barycert/core/integer.hpp"
+#include "core/base/random.hpp"
+#include "core/base/text.hpp"
+#include "core/integer.hpp"
 
 namespace barycert::testing_rational {
 

@@ -2,7 +2,7 @@
 #include <cstdio>
 
 #include "barycert/environment.hpp"
-#include "core/answers.hpp"
+#include "tests/core/answers.hpp"
 
 int main() {
     using namespace barycert;

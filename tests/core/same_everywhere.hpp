@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/environments.hpp"
+#include "tests/core/environments.hpp"
 
 namespace barycert::testing_environments {
 

@@ -4,10 +4,10 @@
 #include "barycert/environment.hpp"
 #include "barycert/predicates.hpp"
 #include "barycert/weights.hpp"
-#include "core/environments.hpp"
-#include "core/rational.hpp"
-#include "exact/cases.hpp"
-#include "exact/second_path.hpp"
+#include "tests/core/environments.hpp"
+#include "tests/core/rational.hpp"
+#include "tests/exact/cases.hpp"
+#include "tests/exact/second_path.hpp"
 
 namespace barycert {
 namespace {

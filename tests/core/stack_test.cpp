@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/extremes.hpp"
+#include "tests/core/extremes.hpp"
 
 namespace barycert::testing_extremes {
 namespace {

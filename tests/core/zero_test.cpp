@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "barycert/barycert.hpp"
-#include "core/environments.hpp"
-#include "core/field_cases.hpp"
-#include "core/rational.hpp"
+#include "tests/core/environments.hpp"
+#include "tests/core/field_cases.hpp"
+#include "tests/core/rational.hpp"
 
 namespace barycert::testing_fields {
 namespace {

@@ -1,15 +1,15 @@
 // Round numbers and what they are called.
-#include "barycert/draw/axes.hpp"
+#include "draw/axes.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "barycert/base/random.hpp"
-#include "barycert/base/text.hpp"
-#include "barycert/draw/colour_map.hpp"
-#include "barycert/draw/files.hpp"
+#include "core/base/random.hpp"
+#include "core/base/text.hpp"
+#include "draw/colour_map.hpp"
+#include "draw/files.hpp"
 #include "barycert/figure.hpp"
 
 namespace barycert::draw {

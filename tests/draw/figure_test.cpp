@@ -7,12 +7,12 @@
 #include <limits>
 #include <tuple>
 
-#include "barycert/base/random.hpp"
-#include "barycert/draw/colour_map.hpp"
-#include "barycert/draw/files.hpp"
-#include "barycert/draw/histogram.hpp"
-#include "barycert/draw/view.hpp"
-#include "io/tetgen/mesh_files.hpp"
+#include "core/base/random.hpp"
+#include "draw/colour_map.hpp"
+#include "draw/files.hpp"
+#include "draw/histogram.hpp"
+#include "draw/view.hpp"
+#include "tests/io/tetgen/mesh_files.hpp"
 
 namespace barycert {
 namespace {

@@ -13,10 +13,10 @@
 #include <optional>
 #include <vector>
 
-#include "barycert/base/random.hpp"
-#include "barycert/draw/colour_map.hpp"
+#include "core/base/random.hpp"
+#include "draw/colour_map.hpp"
 #include "barycert/figure.hpp"
-#include "io/tetgen/mesh_files.hpp"
+#include "tests/io/tetgen/mesh_files.hpp"
 
 namespace barycert::draw {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "barycert/base/random.hpp"
-#include "barycert/raster/resolve.hpp"
+#include "core/base/random.hpp"
+#include "draw/raster/resolve.hpp"
 #include "barycert/scene.hpp"
 
 namespace barycert {

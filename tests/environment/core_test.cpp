@@ -3,10 +3,10 @@
 
 #include <array>
 
-#include "barycert/base/random.hpp"
-#include "barycert/base/text.hpp"
-#include "barycert/base/ulp.hpp"
-#include "core/same_everywhere.hpp"
+#include "core/base/random.hpp"
+#include "core/base/text.hpp"
+#include "core/base/ulp.hpp"
+#include "tests/core/same_everywhere.hpp"
 
 namespace barycert {
 namespace {

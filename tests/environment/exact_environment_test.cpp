@@ -10,7 +10,7 @@
 #include <chrono>
 #include <thread>
 
-#include "core/same_everywhere.hpp"
+#include "tests/core/same_everywhere.hpp"
 
 namespace barycert {
 namespace {

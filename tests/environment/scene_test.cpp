@@ -1,9 +1,9 @@
 // Clipping, textures, cameras and scenes: the same answers in every floating-point environment.
 #include "barycert/figure.hpp"
 
-#include "barycert/base/random.hpp"
+#include "core/base/random.hpp"
 #include "barycert/raster.hpp"
-#include "core/same_everywhere.hpp"
+#include "tests/core/same_everywhere.hpp"
 
 namespace barycert {
 namespace {

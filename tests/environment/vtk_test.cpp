@@ -18,10 +18,10 @@
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 
-#include "barycert/base/random.hpp"
-#include "check/meshes.hpp"
-#include "core/same_everywhere.hpp"
-#include "vtk/grids.hpp"
+#include "core/base/random.hpp"
+#include "tests/check/meshes.hpp"
+#include "tests/core/same_everywhere.hpp"
+#include "tests/vtk/grids.hpp"
 #include "vtkBarycertLocator.h"
 #include "vtkBarycertProbe.h"
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <string_view>
 
-#include "barycert/base/random.hpp"
-#include "barycert/base/text.hpp"
+#include "core/base/random.hpp"
+#include "core/base/text.hpp"
 #include "barycert/simplex.hpp"
 
 namespace barycert::testing_cases {

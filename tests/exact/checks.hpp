@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "barycert/oracle.hpp"
-#include "exact/cases.hpp"
-#include "exact/second_path.hpp"
+#include "tests/exact/cases.hpp"
+#include "tests/exact/second_path.hpp"
 
 namespace barycert::exact {
 

@@ -1,6 +1,6 @@
 // Small cases whose answers a reader can check. A quotient of small integers is written as a division: IEEE division
 // of exact operands is the correctly rounded quotient.
-#include "exact/checks.hpp"
+#include "tests/exact/checks.hpp"
 
 namespace barycert::exact {
 namespace {

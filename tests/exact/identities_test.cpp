@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "exact/checks.hpp"
+#include "tests/exact/checks.hpp"
 
 namespace barycert::exact {
 namespace {

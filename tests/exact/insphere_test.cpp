@@ -4,7 +4,7 @@
 #include <CGAL/Gmpq.h>
 #include <CGAL/Simple_cartesian.h>
 
-#include "core/sphere_cases.hpp"
+#include "tests/core/sphere_cases.hpp"
 
 namespace barycert {
 namespace {

@@ -1,7 +1,7 @@
 // Laws of the exact weights that hold bit for bit, so that they need no second path.
 #include <numeric>
 
-#include "exact/checks.hpp"
+#include "tests/exact/checks.hpp"
 
 namespace barycert::exact {
 namespace {

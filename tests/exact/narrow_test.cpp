@@ -1,5 +1,5 @@
 // When machine words are wide enough, and that they never change an answer.
-#include "exact/checks.hpp"
+#include "tests/exact/checks.hpp"
 
 namespace barycert::exact {
 namespace {

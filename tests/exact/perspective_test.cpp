@@ -7,9 +7,9 @@
 #include <map>
 #include <variant>
 
-#include "barycert/exact/cgal_variant.hpp"
+#include "audit/exact/cgal_variant.hpp"
 #include "barycert/perspective.hpp"
-#include "exact/checks.hpp"
+#include "tests/exact/checks.hpp"
 
 namespace barycert::exact {
 namespace {

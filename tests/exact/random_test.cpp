@@ -1,7 +1,7 @@
 // The oracle against the second path on many thousand cases of every kind.
 #include <map>
 
-#include "exact/checks.hpp"
+#include "tests/exact/checks.hpp"
 
 namespace barycert::exact {
 namespace {

@@ -1,5 +1,5 @@
 // Exact residuals of somebody else's weights, rounded once.
-#include "exact/checks.hpp"
+#include "tests/exact/checks.hpp"
 
 namespace barycert::exact {
 namespace {

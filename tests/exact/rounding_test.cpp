@@ -1,7 +1,7 @@
 // Rounding by itself: quotients, scaled integers and roots against the definition.
-#include "barycert/exact/rounding.hpp"
+#include "audit/exact/rounding.hpp"
 
-#include "exact/checks.hpp"
+#include "tests/exact/checks.hpp"
 
 namespace barycert::exact {
 namespace {

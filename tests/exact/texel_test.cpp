@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "barycert/oracle.hpp"
-#include "exact/cases.hpp"
+#include "tests/exact/cases.hpp"
 
 namespace barycert::exact {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/process.hpp"
+#include "tests/cli/process.hpp"
 
 namespace barycert::faults {
 

@@ -10,7 +10,7 @@
 #include <array>
 #include <cstdio>
 
-#include "barycert/base/random.hpp"
+#include "core/base/random.hpp"
 #include "barycert/predicates.hpp"
 
 namespace {

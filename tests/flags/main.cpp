@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "barycert/base/output_file.hpp"
+#include "files/output_file.hpp"
 #include "matrix.hpp"
 
 namespace {

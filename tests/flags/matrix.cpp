@@ -13,7 +13,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "audit/compared_weights.hpp"
+#include "tests/audit/compared_weights.hpp"
 #include "barycert/audit.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/kernels.hpp"

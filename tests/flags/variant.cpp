@@ -2,10 +2,10 @@
 // formulas that are headers of their own: those that call Eigen would measure Eigen's code, too.
 #include "variant.hpp"
 
-#include "barycert/kernels/perspective_formulas.hpp"
-#include "barycert/kernels/space_formulas.hpp"
-#include "barycert/kernels/tetrahedron_formulas.hpp"
-#include "barycert/kernels/triangle_formulas.hpp"
+#include "audit/kernels/perspective_formulas.hpp"
+#include "audit/kernels/space_formulas.hpp"
+#include "audit/kernels/tetrahedron_formulas.hpp"
+#include "audit/kernels/triangle_formulas.hpp"
 
 #ifndef FLAGS_SCALAR
 #define FLAGS_SCALAR double

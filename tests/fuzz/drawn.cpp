@@ -1,11 +1,11 @@
-#include "fuzz/drawn.hpp"
+#include "tests/fuzz/drawn.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
 
-#include "check/meshes.hpp"
+#include "tests/check/meshes.hpp"
 
 namespace barycert::fuzz {
 namespace {

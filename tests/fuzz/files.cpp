@@ -1,4 +1,4 @@
-#include "fuzz/files.hpp"
+#include "tests/fuzz/files.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -8,8 +8,8 @@
 #include <iterator>
 #include <utility>
 
-#include "fuzz/target.hpp"
-#include "scratch.hpp"
+#include "tests/fuzz/target.hpp"
+#include "tests/scratch.hpp"
 
 namespace barycert::fuzz {
 

@@ -1,4 +1,4 @@
-#include "fuzz/memory.hpp"
+#include "tests/fuzz/memory.hpp"
 
 #include <atomic>
 #include <cstdlib>

@@ -1,4 +1,4 @@
-#include "fuzz/points_round_trip.hpp"
+#include "tests/fuzz/points_round_trip.hpp"
 
 #include <algorithm>
 #include <array>
@@ -6,9 +6,9 @@
 #include <string>
 
 #include "barycert/io.hpp"
-#include "fuzz/files.hpp"
-#include "fuzz/same.hpp"
-#include "fuzz/target.hpp"
+#include "tests/fuzz/files.hpp"
+#include "tests/fuzz/same.hpp"
+#include "tests/fuzz/target.hpp"
 
 namespace barycert::fuzz {
 namespace {

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "fuzz/target.hpp"
+#include "tests/fuzz/target.hpp"
 
 int main(int argc, char** argv) {
     namespace fs = std::filesystem;

@@ -1,10 +1,10 @@
-#include "fuzz/same.hpp"
+#include "tests/fuzz/same.hpp"
 
 #include <bit>
 #include <cmath>
 #include <cstdint>
 
-#include "fuzz/target.hpp"
+#include "tests/fuzz/target.hpp"
 
 namespace barycert::fuzz {
 namespace {

@@ -10,10 +10,10 @@
 #include "barycert/map.hpp"
 #include "barycert/raster.hpp"
 #include "barycert/surface.hpp"
-#include "fuzz/files.hpp"
-#include "fuzz/seed_texts.hpp"
-#include "fuzz/small_meshes.hpp"
-#include "fuzz/target.hpp"
+#include "tests/fuzz/files.hpp"
+#include "tests/fuzz/seed_texts.hpp"
+#include "tests/fuzz/small_meshes.hpp"
+#include "tests/fuzz/target.hpp"
 
 namespace barycert::fuzz {
 namespace {

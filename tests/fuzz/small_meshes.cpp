@@ -1,4 +1,4 @@
-#include "fuzz/small_meshes.hpp"
+#include "tests/fuzz/small_meshes.hpp"
 
 #include <utility>
 

@@ -1,4 +1,4 @@
-#include "fuzz/target.hpp"
+#include "tests/fuzz/target.hpp"
 
 #include <tbb/global_control.h>
 
@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "fuzz/memory.hpp"
+#include "tests/fuzz/memory.hpp"
 
 namespace barycert::fuzz {
 

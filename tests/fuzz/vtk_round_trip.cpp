@@ -1,9 +1,9 @@
-#include "fuzz/vtk_round_trip.hpp"
+#include "tests/fuzz/vtk_round_trip.hpp"
 
 #include "barycert/io.hpp"
-#include "fuzz/files.hpp"
-#include "fuzz/same.hpp"
-#include "fuzz/target.hpp"
+#include "tests/fuzz/files.hpp"
+#include "tests/fuzz/same.hpp"
+#include "tests/fuzz/target.hpp"
 
 namespace barycert::fuzz {
 

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <set>
 
-#include "barycert/index/candidates.hpp"
-#include "barycert/index/facet_contact.hpp"
-#include "barycert/index/overlap.hpp"
+#include "mesh/index/candidates.hpp"
+#include "mesh/index/facet_contact.hpp"
+#include "mesh/index/overlap.hpp"
 #include "barycert/predicates.hpp"
-#include "check/meshes.hpp"
-#include "sanitized.hpp"
+#include "tests/check/meshes.hpp"
+#include "tests/sanitized.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -13,11 +13,11 @@
 #include <utility>
 #include <vector>
 
-#include "barycert/base/random.hpp"
+#include "core/base/random.hpp"
 #include "barycert/environment.hpp"
-#include "barycert/exact/cgal_variant.hpp"
-#include "barycert/index/cell_index.hpp"
-#include "barycert/index/facet_contact.hpp"
+#include "audit/exact/cgal_variant.hpp"
+#include "mesh/index/cell_index.hpp"
+#include "mesh/index/facet_contact.hpp"
 
 namespace barycert::testing {
 namespace {

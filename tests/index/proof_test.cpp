@@ -1,5 +1,5 @@
 // Cells of which it is proved that all others meet them in common faces: held against the slow judge of pairs of cells.
-#include "barycert/index/proof.hpp"
+#include "mesh/index/proof.hpp"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -9,14 +9,14 @@
 #include <cstring>
 #include <numbers>
 
-#include "barycert/locate/locator_data.hpp"
-#include "barycert/mesh/adjacency.hpp"
+#include "mesh/locate/locator_data.hpp"
+#include "mesh/adjacency.hpp"
 #include "barycert/predicates.hpp"
-#include "check/judge.hpp"
-#include "check/meshes.hpp"
-#include "check/random_complexes.hpp"
-#include "limits.hpp"
-#include "mesh/shaped_mesh.hpp"
+#include "tests/check/judge.hpp"
+#include "tests/check/meshes.hpp"
+#include "tests/check/random_complexes.hpp"
+#include "tests/limits.hpp"
+#include "tests/mesh/shaped_mesh.hpp"
 
 namespace barycert::testing {
 namespace {

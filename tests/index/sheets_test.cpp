@@ -1,5 +1,5 @@
 // Open facets that border on the same insides: around ridges that many of them have.
-#include "barycert/index/open_sheets.hpp"
+#include "mesh/index/open_sheets.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 
 #include "barycert/environment.hpp"
 #include "barycert/locator.hpp"
-#include "check/meshes.hpp"
+#include "tests/check/meshes.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -6,9 +6,9 @@
 #include <variant>
 #include <vector>
 
-#include "barycert/base/text.hpp"
-#include "barycert/mesh/columns.hpp"
-#include "io/points_files.hpp"
+#include "core/base/text.hpp"
+#include "mesh/columns.hpp"
+#include "tests/io/points_files.hpp"
 
 namespace barycert::io::testing {
 

@@ -9,8 +9,8 @@
 #include <thread>
 
 #include "barycert/io.hpp"
-#include "barycert/io/formats.hpp"
-#include "io/tetgen/mesh_files.hpp"
+#include "io/formats.hpp"
+#include "tests/io/tetgen/mesh_files.hpp"
 
 namespace barycert::testing {
 namespace {

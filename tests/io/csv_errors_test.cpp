@@ -1,8 +1,8 @@
 // CSV files that are refused, and in which words.
 #include <filesystem>
 
-#include "barycert/io/csv/line_reader.hpp"
-#include "io/points_files.hpp"
+#include "io/csv/line_reader.hpp"
+#include "tests/io/points_files.hpp"
 
 namespace barycert::io::testing {
 namespace {

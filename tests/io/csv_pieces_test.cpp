@@ -5,9 +5,9 @@
 #include <cstdlib>
 #include <sstream>
 
-#include "barycert/base/random.hpp"
-#include "barycert/base/text.hpp"
-#include "io/points_files.hpp"
+#include "core/base/random.hpp"
+#include "core/base/text.hpp"
+#include "tests/io/points_files.hpp"
 
 namespace barycert::io::testing {
 namespace {

@@ -4,8 +4,8 @@
 #include <cstdlib>
 #include <sstream>
 
-#include "barycert/base/text.hpp"
-#include "io/row_data.hpp"
+#include "core/base/text.hpp"
+#include "tests/io/row_data.hpp"
 
 namespace barycert::io::testing {
 namespace {

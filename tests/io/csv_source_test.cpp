@@ -1,8 +1,8 @@
 // CSV files that are accepted, and what they mean.
 #include <cstdlib>
 
-#include "barycert/base/random.hpp"
-#include "io/points_files.hpp"
+#include "core/base/random.hpp"
+#include "tests/io/points_files.hpp"
 
 namespace barycert::io::testing {
 namespace {

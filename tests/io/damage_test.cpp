@@ -1,7 +1,7 @@
 // Damaged and random files: an error or points, never a crash. Run under sanitizers too.
 #include <algorithm>
 
-#include "io/row_data.hpp"
+#include "tests/io/row_data.hpp"
 
 namespace barycert::io::testing {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <csignal>
 
-#include "io/row_data.hpp"
+#include "tests/io/row_data.hpp"
 
 namespace barycert::io::testing {
 namespace {

@@ -1,11 +1,11 @@
 // Which reader a file goes to, and what is said of files that none reads.
-#include "barycert/io/formats.hpp"
+#include "io/formats.hpp"
 
 #include <cstdlib>
 #include <filesystem>
 
 #include "barycert/io.hpp"
-#include "io/tetgen/mesh_files.hpp"
+#include "tests/io/tetgen/mesh_files.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -1,5 +1,5 @@
 #include "barycert/io.hpp"
-#include "io/points_files.hpp"
+#include "tests/io/points_files.hpp"
 
 namespace barycert::io::testing {
 namespace {

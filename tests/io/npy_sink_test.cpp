@@ -1,6 +1,6 @@
 #include <cstring>
 
-#include "io/row_data.hpp"
+#include "tests/io/row_data.hpp"
 
 namespace barycert::io::testing {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "io/points_files.hpp"
+#include "tests/io/points_files.hpp"
 
 namespace barycert::io::testing {
 namespace {

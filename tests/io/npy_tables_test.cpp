@@ -1,6 +1,6 @@
 // NPY files of columns: structured arrays, integers, texts; and damaged ones.
-#include "barycert/base/random.hpp"
-#include "io/carried_points.hpp"
+#include "core/base/random.hpp"
+#include "tests/io/carried_points.hpp"
 
 namespace barycert::io::testing {
 namespace {

@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <numeric>
 
-#include "barycert/io/npz/weights_file.hpp"
-#include "io/row_data.hpp"
+#include "io/npz/weights_file.hpp"
+#include "tests/io/row_data.hpp"
 
 namespace barycert::io::testing {
 namespace {

@@ -1,8 +1,8 @@
 // Against NumPy itself, where there is one.
 #include <cstdlib>
 
-#include "barycert/mesh/columns.hpp"
-#include "io/row_data.hpp"
+#include "mesh/columns.hpp"
+#include "tests/io/row_data.hpp"
 
 namespace barycert::io::testing {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "barycert/io/png/png_file.hpp"
+#include "draw/png/png_file.hpp"
 
 namespace barycert::io {
 namespace {

@@ -1,5 +1,5 @@
 // Which columns of a file are the coordinates, and which are carried through: CSV, NPY, .node.
-#include "io/carried_points.hpp"
+#include "tests/io/carried_points.hpp"
 
 namespace barycert::io::testing {
 namespace {

@@ -13,7 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "barycert/io.hpp"
-#include "io/tetgen/mesh_files.hpp"
+#include "tests/io/tetgen/mesh_files.hpp"
 
 namespace barycert::io::testing {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "barycert/base/random.hpp"
-#include "io/points_files.hpp"
+#include "core/base/random.hpp"
+#include "tests/io/points_files.hpp"
 
 namespace barycert::io::testing {
 

@@ -1,6 +1,6 @@
 // What comes out goes in again: rows as points, with all their columns.
-#include "io/carried_points.hpp"
-#include "io/row_data.hpp"
+#include "tests/io/carried_points.hpp"
+#include "tests/io/row_data.hpp"
 
 namespace barycert::io::testing {
 namespace {

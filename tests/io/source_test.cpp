@@ -1,6 +1,6 @@
-#include "barycert/io/formats.hpp"
+#include "io/formats.hpp"
 
-#include "io/points_files.hpp"
+#include "tests/io/points_files.hpp"
 
 namespace barycert::io::testing {
 namespace {

@@ -8,8 +8,8 @@
 #include <cstdio>
 #include <thread>
 
-#include "io/row_data.hpp"
-#include "sanitized.hpp"
+#include "tests/io/row_data.hpp"
+#include "tests/sanitized.hpp"
 
 namespace barycert::io::testing {
 namespace {

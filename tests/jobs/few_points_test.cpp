@@ -1,13 +1,13 @@
 // A job for few points writes what it writes with an index, byte for byte.
-#include "barycert/jobs/sampled_mesh.hpp"
+#include "app/jobs/sampled_mesh.hpp"
 
 #include <gtest/gtest.h>
 
-#include "barycert/base/random.hpp"
-#include "barycert/base/text.hpp"
+#include "core/base/random.hpp"
+#include "core/base/text.hpp"
 #include "barycert/jobs.hpp"
-#include "bench/generated_mesh.hpp"
-#include "io/tetgen/mesh_files.hpp"
+#include "tests/bench/generated_mesh.hpp"
+#include "tests/io/tetgen/mesh_files.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "io/tetgen/mesh_files.hpp"
+#include "tests/io/tetgen/mesh_files.hpp"
 
 namespace barycert::testing {
 namespace {

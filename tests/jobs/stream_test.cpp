@@ -1,5 +1,5 @@
 // Blocks on their way from a source to a sink: in their order, on any number of threads; and errors of any stage.
-#include "barycert/jobs/stream.hpp"
+#include "app/jobs/stream.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <cfenv>
 #include <limits>
 
-#include "barycert/base/random.hpp"
-#include "bench/generated_mesh.hpp"
-#include "io/tetgen/mesh_files.hpp"
+#include "core/base/random.hpp"
+#include "tests/bench/generated_mesh.hpp"
+#include "tests/io/tetgen/mesh_files.hpp"
 
 namespace barycert::testing {
 namespace {

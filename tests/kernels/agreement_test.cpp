@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <string>
 
-#include "barycert/base/random.hpp"
+#include "core/base/random.hpp"
 #include "barycert/kernels.hpp"
-#include "kernels/exact_weights.hpp"
+#include "tests/kernels/exact_weights.hpp"
 
 namespace barycert {
 namespace {

@@ -10,10 +10,10 @@
 #include <string>
 #include <string_view>
 
-#include "barycert/base/random.hpp"
+#include "core/base/random.hpp"
 #include "barycert/kernels.hpp"
-#include "kernels/breaking_cases.hpp"
-#include "kernels/exact_weights.hpp"
+#include "tests/kernels/breaking_cases.hpp"
+#include "tests/kernels/exact_weights.hpp"
 
 namespace barycert {
 namespace {

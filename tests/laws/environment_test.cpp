@@ -10,7 +10,7 @@
 #include <immintrin.h>
 #endif
 
-#include "barycert/base/random.hpp"
+#include "core/base/random.hpp"
 #include "barycert/weights.hpp"
 #include "judge.hpp"
 

@@ -1,13 +1,13 @@
 // The signs of a point in a cell of the index are those of weight_signs, where floating point just does, or does not,
 // tell them.
-#include "barycert/locate/cell_signs.hpp"
+#include "mesh/locate/cell_signs.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "barycert/base/random.hpp"
-#include "barycert/index/cell_index.hpp"
+#include "core/base/random.hpp"
+#include "mesh/index/cell_index.hpp"
 #include "barycert/locator.hpp"
 
 namespace barycert::testing {

@@ -1,13 +1,13 @@
 // Cells that may hold points, against the box of every cell.
-#include "barycert/locate/cells_at_points.hpp"
+#include "mesh/locate/cells_at_points.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "barycert/environment.hpp"
-#include "check/meshes.hpp"
-#include "locate/points.hpp"
+#include "tests/check/meshes.hpp"
+#include "tests/locate/points.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -4,9 +4,9 @@
 #include <filesystem>
 
 #include "barycert/io.hpp"
-#include "check/meshes.hpp"
-#include "locate/points.hpp"
-#include "locate/ways.hpp"
+#include "tests/check/meshes.hpp"
+#include "tests/locate/points.hpp"
+#include "tests/locate/ways.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -1,4 +1,4 @@
-#include "locate/judge.hpp"
+#include "tests/locate/judge.hpp"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,9 +1,9 @@
 // The nearest feature of a cell is found whatever is tried first.
-#include "barycert/locate/near_feature.hpp"
+#include "mesh/locate/near_feature.hpp"
 
 #include <gtest/gtest.h>
 
-#include "barycert/base/random.hpp"
+#include "core/base/random.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -1,4 +1,4 @@
-#include "locate/nearest_judge.hpp"
+#include "tests/locate/nearest_judge.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "barycert/oracle.hpp"
-#include "locate/judge.hpp"
+#include "tests/locate/judge.hpp"
 
 namespace barycert::testing {
 namespace {

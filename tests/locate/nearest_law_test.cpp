@@ -5,15 +5,15 @@
 #include <cmath>
 #include <limits>
 
-#include "barycert/base/text.hpp"
-#include "barycert/locate/locator_data.hpp"
-#include "barycert/locate/nearest.hpp"
-#include "check/meshes.hpp"
-#include "check/random_complexes.hpp"
-#include "limits.hpp"
-#include "locate/judge.hpp"
-#include "locate/nearest_judge.hpp"
-#include "locate/points.hpp"
+#include "core/base/text.hpp"
+#include "mesh/locate/locator_data.hpp"
+#include "mesh/locate/nearest.hpp"
+#include "tests/check/meshes.hpp"
+#include "tests/check/random_complexes.hpp"
+#include "tests/limits.hpp"
+#include "tests/locate/judge.hpp"
+#include "tests/locate/nearest_judge.hpp"
+#include "tests/locate/points.hpp"
 
 namespace barycert::testing {
 namespace {

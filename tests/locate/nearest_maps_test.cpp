@@ -5,9 +5,9 @@
 #include <random>
 
 #include "barycert/sampler.hpp"
-#include "mesh/curved_mesh.hpp"
-#include "mesh/shaped_mesh.hpp"
-#include "mesh/whole_cells.hpp"
+#include "tests/mesh/curved_mesh.hpp"
+#include "tests/mesh/shaped_mesh.hpp"
+#include "tests/mesh/whole_cells.hpp"
 
 namespace barycert::test {
 namespace {

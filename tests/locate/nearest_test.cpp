@@ -5,14 +5,14 @@
 #include <cmath>
 #include <limits>
 
-#include "barycert/base/text.hpp"
+#include "core/base/text.hpp"
 #include "barycert/io.hpp"
 #include "barycert/locator.hpp"
-#include "check/meshes.hpp"
-#include "limits.hpp"
-#include "locate/judge.hpp"
-#include "locate/nearest_judge.hpp"
-#include "locate/points.hpp"
+#include "tests/check/meshes.hpp"
+#include "tests/limits.hpp"
+#include "tests/locate/judge.hpp"
+#include "tests/locate/nearest_judge.hpp"
+#include "tests/locate/points.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -1,19 +1,19 @@
 // Where Occupancy says that no cell is, no cell may be: at the edges of its bins above all.
-#include "barycert/locate/occupancy.hpp"
+#include "mesh/locate/occupancy.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "barycert/locate/lanes.hpp"
-#include "barycert/locate/locator_data.hpp"
+#include "mesh/locate/lanes.hpp"
+#include "mesh/locate/locator_data.hpp"
 #include "barycert/locator.hpp"
-#include "check/meshes.hpp"
-#include "check/random_complexes.hpp"
-#include "limits.hpp"
-#include "locate/points.hpp"
-#include "locate/ways.hpp"
+#include "tests/check/meshes.hpp"
+#include "tests/check/random_complexes.hpp"
+#include "tests/limits.hpp"
+#include "tests/locate/points.hpp"
+#include "tests/locate/ways.hpp"
 
 namespace barycert::testing {
 namespace {

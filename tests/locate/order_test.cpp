@@ -14,8 +14,8 @@
 #include "barycert/environment.hpp"
 #include "barycert/io.hpp"
 #include "barycert/locator.hpp"
-#include "check/meshes.hpp"
-#include "locate/points.hpp"
+#include "tests/check/meshes.hpp"
+#include "tests/locate/points.hpp"
 
 namespace barycert::testing {
 namespace {

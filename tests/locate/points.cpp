@@ -1,5 +1,5 @@
-#include "locate/points.hpp"
-#include "limits.hpp"
+#include "tests/locate/points.hpp"
+#include "tests/limits.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "barycert/base/text.hpp"
+#include "core/base/text.hpp"
 
 namespace barycert::testing {
 namespace {

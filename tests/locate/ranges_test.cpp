@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 
-#include "check/meshes.hpp"
-#include "limits.hpp"
-#include "locate/points.hpp"
-#include "locate/ways.hpp"
+#include "tests/check/meshes.hpp"
+#include "tests/limits.hpp"
+#include "tests/locate/points.hpp"
+#include "tests/locate/ways.hpp"
 
 namespace barycert::testing {
 namespace {

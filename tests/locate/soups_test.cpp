@@ -3,10 +3,10 @@
 
 #include <cmath>
 
-#include "check/meshes.hpp"
-#include "check/random_complexes.hpp"
-#include "locate/points.hpp"
-#include "locate/ways.hpp"
+#include "tests/check/meshes.hpp"
+#include "tests/check/random_complexes.hpp"
+#include "tests/locate/points.hpp"
+#include "tests/locate/ways.hpp"
 
 namespace barycert::testing {
 namespace {

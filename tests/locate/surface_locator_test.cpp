@@ -12,7 +12,7 @@
 #include <optional>
 #include <set>
 
-#include "check/surfaces.hpp"
+#include "tests/check/surfaces.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -1,4 +1,4 @@
-#include "locate/ways.hpp"
+#include "tests/locate/ways.hpp"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -9,7 +9,7 @@
 #include "barycert/check.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/locator.hpp"
-#include "locate/points.hpp"
+#include "tests/locate/points.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "barycert/base/random.hpp"
+#include "core/base/random.hpp"
 #include "barycert/mesh.hpp"
-#include "locate/judge.hpp"
+#include "tests/locate/judge.hpp"
 
 namespace barycert::testing {
 

@@ -3,7 +3,7 @@
 
 #include "barycert/check.hpp"
 #include "barycert/sampler.hpp"
-#include "mesh/shaped_mesh.hpp"
+#include "tests/mesh/shaped_mesh.hpp"
 
 namespace barycert::test {
 namespace {

@@ -1,11 +1,11 @@
-#include "barycert/mesh/adjacency.hpp"
+#include "mesh/adjacency.hpp"
 
 #include <algorithm>
 #include <set>
 
 #include <gtest/gtest.h>
 
-#include "barycert/base/random.hpp"
+#include "core/base/random.hpp"
 
 namespace barycert {
 namespace {

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "barycert/mesh.hpp"
-#include "barycert/mesh/mid_edges.hpp"
+#include "mesh/mid_edges.hpp"
 
 namespace barycert::testing {
 

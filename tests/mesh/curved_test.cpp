@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "barycert/check.hpp"
-#include "barycert/mesh/pulling.hpp"
+#include "mesh/pulling.hpp"
 #include "curved_mesh.hpp"
 
 namespace barycert::testing {

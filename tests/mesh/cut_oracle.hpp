@@ -4,7 +4,7 @@
 #include <map>
 #include <set>
 
-#include "mesh/shaped_mesh.hpp"
+#include "tests/mesh/shaped_mesh.hpp"
 
 namespace barycert::test {
 

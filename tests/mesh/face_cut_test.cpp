@@ -1,6 +1,6 @@
-#include "barycert/mesh/face_cut.hpp"
+#include "mesh/face_cut.hpp"
 
-#include "mesh/cut_oracle.hpp"
+#include "tests/mesh/cut_oracle.hpp"
 
 namespace barycert::test {
 namespace {

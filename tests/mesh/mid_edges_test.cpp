@@ -1,9 +1,9 @@
-#include "barycert/mesh/mid_edges.hpp"
+#include "mesh/mid_edges.hpp"
 
 #include <gtest/gtest.h>
 
-#include "io/tetgen/mesh_files.hpp"
-#include "io/tetgen/random_mesh.hpp"
+#include "tests/io/tetgen/mesh_files.hpp"
+#include "tests/io/tetgen/random_mesh.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -1,8 +1,8 @@
-#include "barycert/mesh/part.hpp"
+#include "mesh/part.hpp"
 
 #include <gtest/gtest.h>
 
-#include "barycert/base/random.hpp"
+#include "core/base/random.hpp"
 
 namespace barycert::mesh {
 namespace {

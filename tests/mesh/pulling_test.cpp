@@ -1,8 +1,8 @@
 #include <map>
 #include <set>
 
-#include "barycert/mesh/consistency.hpp"
-#include "mesh/shaped_mesh.hpp"
+#include "mesh/consistency.hpp"
+#include "tests/mesh/shaped_mesh.hpp"
 
 namespace barycert::test {
 namespace {

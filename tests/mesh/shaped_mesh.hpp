@@ -7,7 +7,7 @@
 #include <numeric>
 #include <random>
 
-#include "barycert/mesh/cell_types.hpp"
+#include "mesh/cell_types.hpp"
 
 namespace barycert::test {
 

@@ -1,7 +1,7 @@
-#include "barycert/mesh/solid_cut.hpp"
+#include "mesh/solid_cut.hpp"
 
-#include "mesh/cut_oracle.hpp"
-#include "mesh/octree_cell.hpp"
+#include "tests/mesh/cut_oracle.hpp"
+#include "tests/mesh/octree_cell.hpp"
 
 namespace barycert::test {
 namespace {

@@ -1,6 +1,6 @@
 // When a node counts as being where a straight cell has it.
 
-#include "barycert/mesh/straight_nodes.hpp"
+#include "mesh/straight_nodes.hpp"
 
 #include <gtest/gtest.h>
 

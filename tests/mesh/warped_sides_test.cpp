@@ -1,10 +1,10 @@
 // Sides that are not flat, and what lies beyond them.
 
-#include "barycert/mesh/warped_sides.hpp"
+#include "mesh/warped_sides.hpp"
 
 #include <gtest/gtest.h>
 
-#include "barycert/mesh/pulling.hpp"
+#include "mesh/pulling.hpp"
 
 namespace barycert::mesh {
 namespace {

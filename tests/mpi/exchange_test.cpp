@@ -9,8 +9,8 @@
 
 #include <vtkMultiProcessController.h>
 
-#include "barycert/pieces/exchange.hpp"
-#include "mpi/pieces.hpp"
+#include "mesh/pieces/exchange.hpp"
+#include "tests/mpi/pieces.hpp"
 #include "vtk/distributed_probe.hpp"
 
 namespace barycert::testing {

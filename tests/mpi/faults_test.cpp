@@ -23,9 +23,9 @@
 #include <vtkVariantArray.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
-#include "check/meshes.hpp"
-#include "mpi/pieces.hpp"
-#include "vtk/grids.hpp"
+#include "tests/check/meshes.hpp"
+#include "tests/mpi/pieces.hpp"
+#include "tests/vtk/grids.hpp"
 #include "vtkPBarycertProbe.h"
 
 namespace barycert::testing {

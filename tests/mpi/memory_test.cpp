@@ -10,10 +10,10 @@
 #include <vtkNew.h>
 #include <vtkPointData.h>
 
-#include "check/meshes.hpp"
-#include "mpi/pieces.hpp"
+#include "tests/check/meshes.hpp"
+#include "tests/mpi/pieces.hpp"
 #include "vtk/distributed_probe.hpp"
-#include "vtk/grids.hpp"
+#include "tests/vtk/grids.hpp"
 #include "vtkBarycertProbe.h"
 
 namespace {

@@ -10,13 +10,13 @@
 #include <vtkNew.h>
 #include <vtkPointData.h>
 
-#include "check/meshes.hpp"
-#include "core/same_everywhere.hpp"
-#include "locate/judge.hpp"
-#include "locate/points.hpp"
-#include "mpi/pieces.hpp"
-#include "vtk/grids.hpp"
-#include "vtk/mixed_grids.hpp"
+#include "tests/check/meshes.hpp"
+#include "tests/core/same_everywhere.hpp"
+#include "tests/locate/judge.hpp"
+#include "tests/locate/points.hpp"
+#include "tests/mpi/pieces.hpp"
+#include "tests/vtk/grids.hpp"
+#include "tests/vtk/mixed_grids.hpp"
 #include "vtkPBarycertProbe.h"
 
 namespace barycert::testing {

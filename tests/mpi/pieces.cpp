@@ -1,4 +1,4 @@
-#include "mpi/pieces.hpp"
+#include "tests/mpi/pieces.hpp"
 
 #include <gtest/gtest.h>
 
@@ -20,8 +20,8 @@
 #include <vtkStringArray.h>
 #include <vtkUnsignedCharArray.h>
 
-#include "locate/points.hpp"
-#include "vtk/grids.hpp"
+#include "tests/locate/points.hpp"
+#include "tests/vtk/grids.hpp"
 
 namespace barycert::testing {
 

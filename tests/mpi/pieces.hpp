@@ -7,7 +7,7 @@
 #include <vtkSmartPointer.h>
 #include <vtkUnstructuredGrid.h>
 
-#include "barycert/base/random.hpp"
+#include "core/base/random.hpp"
 #include "barycert/mesh.hpp"
 
 class vtkPointData;

@@ -43,7 +43,7 @@ class Bench:
                 shutil.rmtree(place)
         scratch.mkdir(parents=True, exist_ok=True)
         self.pristine = scratch / "pristine" / "barycert" / "core"
-        shutil.copytree(root / "src/barycert/core", self.pristine)
+        shutil.copytree(root / "src/core", self.pristine)
         self.cases = scratch / "cases.bin"
 
     def mutants(self):
@@ -54,7 +54,7 @@ class Bench:
         place = self.scratch / f"ahead.{target}"
         place.mkdir()
         # The list of targets goes before any header of Highway's.
-        text = '#pragma once\n#include "barycert/core/simd_targets.hpp"\n' + "".join(f"#include <{h}>\n" for h in HEADERS)
+        text = '#pragma once\n#include "core/simd_targets.hpp"\n' + "".join(f"#include <{h}>\n" for h in HEADERS)
         (place / "ahead.hpp").write_text(text)
         if target in TARGETS:
             (place / "target.cpp").write_text(f"#include <hwy/highway.h>\nstatic_assert({TARGET_CHECK[target]});\n")
@@ -69,7 +69,7 @@ class Bench:
     def compile(self, include, source, target, out):
         target = target if source == "lanes.cpp" else "plain"
         return run("g++", *FLAGS, *TARGETS.get(target, []), "-include", self.scratch / f"ahead.{target}/ahead.hpp",
-                   "-I", include, "-I", self.root / "src", "-c", include / "barycert/core" / source, "-o", out)
+                   "-I", include, "-I", self.root / "src", "-c", include / "core" / source, "-o", out)
 
     def link(self, objects, out):
         return run("g++", self.scratch / "killer.o", *objects, self.build / "src/libbarycert.a", "-lhwy", "-pthread",

@@ -6,7 +6,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "barycert/base/random.hpp"
+#include "core/base/random.hpp"
 #include "barycert/oracle.hpp"
 #include "barycert/simplex.hpp"
 

@@ -13,7 +13,7 @@
 #include <fstream>
 
 #include "barycert/audit.hpp"
-#include "barycert/base/random.hpp"
+#include "core/base/random.hpp"
 #include "barycert/io.hpp"
 #include "cases.hpp"
 

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "barycert/pieces/distribution.hpp"
-#include "pieces/threads.hpp"
+#include "mesh/pieces/distribution.hpp"
+#include "tests/pieces/threads.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -1,13 +1,13 @@
 // Few boxes in place of many.
 
-#include "barycert/pieces/piece.hpp"
+#include "mesh/pieces/piece.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <limits>
 
-#include "barycert/base/random.hpp"
+#include "core/base/random.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -1,6 +1,6 @@
 // Owners and values at points, however mesh and points are cut: those of the whole mesh.
 
-#include "barycert/pieces/distribution.hpp"
+#include "mesh/pieces/distribution.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,11 +8,11 @@
 #include <limits>
 #include <string>
 
-#include "barycert/base/random.hpp"
+#include "core/base/random.hpp"
 #include "barycert/locator.hpp"
-#include "check/meshes.hpp"
-#include "locate/points.hpp"
-#include "pieces/threads.hpp"
+#include "tests/check/meshes.hpp"
+#include "tests/locate/points.hpp"
+#include "tests/pieces/threads.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -1,6 +1,6 @@
 // Messages between ranks: sizes from nothing to more than one chunk, lost ones, and errors.
 
-#include "barycert/pieces/exchange.hpp"
+#include "mesh/pieces/exchange.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "pieces/threads.hpp"
+#include "tests/pieces/threads.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "barycert/pieces/piece.hpp"
-#include "mesh/shaped_mesh.hpp"
-#include "pieces/threads.hpp"
+#include "mesh/pieces/piece.hpp"
+#include "tests/mesh/shaped_mesh.hpp"
+#include "tests/pieces/threads.hpp"
 
 namespace barycert::testing {
 namespace {

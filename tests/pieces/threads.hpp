@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "barycert/pieces/exchange.hpp"
+#include "mesh/pieces/exchange.hpp"
 
 namespace barycert::testing {
 

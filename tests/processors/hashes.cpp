@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "barycert/base/random.hpp"
+#include "core/base/random.hpp"
 #include "barycert/check.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/grid.hpp"

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <limits>
 
-#include "barycert/base/random.hpp"
+#include "core/base/random.hpp"
 #include "barycert/scene.hpp"
-#include "raster/rational.hpp"
+#include "tests/raster/rational.hpp"
 
 namespace barycert {
 namespace {

@@ -1,4 +1,4 @@
-#include "raster/clip_judge.hpp"
+#include "tests/raster/clip_judge.hpp"
 
 namespace barycert {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "raster/rational.hpp"
+#include "tests/raster/rational.hpp"
 
 namespace barycert {
 

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
-#include "barycert/base/random.hpp"
-#include "raster/clip_judge.hpp"
+#include "core/base/random.hpp"
+#include "tests/raster/clip_judge.hpp"
 
 namespace barycert {
 namespace {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <vector>
 
-#include "barycert/base/random.hpp"
+#include "core/base/random.hpp"
 #include "barycert/raster.hpp"
-#include "raster/judge.hpp"
+#include "tests/raster/judge.hpp"
 
 namespace barycert {
 namespace {

@@ -1,4 +1,4 @@
-#include "raster/judge.hpp"
+#include "tests/raster/judge.hpp"
 
 #include <CGAL/Gmpq.h>
 

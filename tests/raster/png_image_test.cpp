@@ -6,9 +6,9 @@
 #include <cstdio>
 #include <cstring>
 
-#include "barycert/base/random.hpp"
+#include "core/base/random.hpp"
 #include "barycert/raster.hpp"
-#include "io/tetgen/mesh_files.hpp"
+#include "tests/io/tetgen/mesh_files.hpp"
 
 namespace barycert {
 namespace {

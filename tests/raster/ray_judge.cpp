@@ -1,4 +1,4 @@
-#include "raster/ray_judge.hpp"
+#include "tests/raster/ray_judge.hpp"
 
 namespace barycert {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "barycert/raster.hpp"
-#include "raster/rational.hpp"
+#include "tests/raster/rational.hpp"
 
 namespace barycert {
 

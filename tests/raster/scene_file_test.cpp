@@ -2,9 +2,9 @@
 // says is tested on the command line.
 #include <gtest/gtest.h>
 
-#include "barycert/base/random.hpp"
+#include "core/base/random.hpp"
 #include "barycert/scene.hpp"
-#include "io/tetgen/mesh_files.hpp"
+#include "tests/io/tetgen/mesh_files.hpp"
 
 namespace barycert {
 namespace {

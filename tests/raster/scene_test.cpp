@@ -6,9 +6,9 @@
 #include <cmath>
 #include <limits>
 
-#include "barycert/base/random.hpp"
-#include "raster/judge.hpp"
-#include "raster/ray_judge.hpp"
+#include "core/base/random.hpp"
+#include "tests/raster/judge.hpp"
+#include "tests/raster/ray_judge.hpp"
 
 namespace barycert {
 namespace {

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
-#include "barycert/base/random.hpp"
-#include "raster/rational.hpp"
+#include "core/base/random.hpp"
+#include "tests/raster/rational.hpp"
 
 namespace barycert {
 namespace {

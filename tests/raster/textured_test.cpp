@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "barycert/base/random.hpp"
+#include "core/base/random.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/perspective.hpp"
 #include "barycert/raster.hpp"

@@ -11,7 +11,7 @@
 
 #include "barycert/audit_pictures.hpp"
 #include "barycert/audit_report.hpp"
-#include "barycert/draw/axes.hpp"
+#include "draw/axes.hpp"
 #include "small_audit.hpp"
 #include "well_formed.hpp"
 

@@ -11,12 +11,12 @@
 #include <string>
 #include <vector>
 
-#include "barycert/draw/axes.hpp"
+#include "draw/axes.hpp"
 #include "barycert/raster.hpp"
 #include "barycert/report.hpp"
-#include "barycert/report/check/check_pictures.hpp"
+#include "app/report/check/check_pictures.hpp"
 #include "check_meshes.hpp"
-#include "io/tetgen/mesh_files.hpp"
+#include "tests/io/tetgen/mesh_files.hpp"
 #include "lines.hpp"
 #include "well_formed.hpp"
 

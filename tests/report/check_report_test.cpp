@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "barycert/base/text.hpp"
+#include "core/base/text.hpp"
 #include "barycert/report.hpp"
 #include "check_meshes.hpp"
 #include "lines.hpp"

@@ -1,10 +1,10 @@
 // Figures that JSON cannot say, and text that is no UTF-8.
 
-#include "barycert/report/common/json.hpp"
+#include "app/report/common/json.hpp"
 
 #include <gtest/gtest.h>
 
-#include "barycert/base/json_text.hpp"
+#include "files/json_text.hpp"
 
 namespace barycert::report {
 namespace {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "barycert/audit_report.hpp"
-#include "barycert/draw/axes.hpp"
+#include "draw/axes.hpp"
 #include "small_audit.hpp"
 
 namespace barycert::report_test {

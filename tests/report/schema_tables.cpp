@@ -4,7 +4,7 @@
 #include <fstream>
 #include <regex>
 
-#include "barycert/base/text.hpp"
+#include "core/base/text.hpp"
 
 namespace barycert::report_test {
 namespace {

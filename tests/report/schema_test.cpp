@@ -11,7 +11,7 @@
 #include "barycert/audit_search.hpp"
 #include "barycert/report.hpp"
 #include "check_meshes.hpp"
-#include "mesh/shaped_mesh.hpp"
+#include "tests/mesh/shaped_mesh.hpp"
 #include "schema_tables.hpp"
 #include "small_audit.hpp"
 

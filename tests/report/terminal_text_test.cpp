@@ -1,12 +1,12 @@
 // Small pieces of terminal text.
 
-#include "barycert/report/common/terminal_text.hpp"
+#include "app/report/common/terminal_text.hpp"
 
 #include <limits>
 
 #include <gtest/gtest.h>
 
-#include "barycert/report/common/document.hpp"
+#include "app/report/common/document.hpp"
 
 namespace barycert::report {
 namespace {

@@ -9,8 +9,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "audit/audit_helpers.hpp"
-#include "barycert/audit/recipes.hpp"
+#include "tests/audit/audit_helpers.hpp"
+#include "audit/recipes.hpp"
 #include "barycert/audit_report.hpp"
 
 namespace barycert::audit {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "audit/audit_helpers.hpp"
+#include "tests/audit/audit_helpers.hpp"
 #include "barycert/audit_search.hpp"
 
 namespace barycert::audit {

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <set>
 
-#include "audit/audit_helpers.hpp"
+#include "tests/audit/audit_helpers.hpp"
 
 namespace barycert::audit {
 namespace {

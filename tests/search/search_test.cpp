@@ -7,8 +7,8 @@
 
 #include <cmath>
 
-#include "audit/audit_helpers.hpp"
-#include "barycert/audit/search/moves.hpp"
+#include "tests/audit/audit_helpers.hpp"
+#include "audit/search/moves.hpp"
 
 namespace barycert::audit {
 namespace {

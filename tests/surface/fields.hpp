@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "barycert/base/random.hpp"
-#include "check/meshes.hpp"
-#include "core/rational.hpp"
+#include "core/base/random.hpp"
+#include "tests/check/meshes.hpp"
+#include "tests/core/rational.hpp"
 
 namespace barycert::testing {
 

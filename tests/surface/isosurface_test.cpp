@@ -6,9 +6,9 @@
 
 #include "barycert/environment.hpp"
 #include "barycert/surface.hpp"
-#include "check/random_complexes.hpp"
-#include "surface/fields.hpp"
-#include "surface/judge.hpp"
+#include "tests/check/random_complexes.hpp"
+#include "tests/surface/fields.hpp"
+#include "tests/surface/judge.hpp"
 
 namespace barycert::testing {
 namespace {

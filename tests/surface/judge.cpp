@@ -1,4 +1,4 @@
-#include "surface/judge.hpp"
+#include "tests/surface/judge.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/rational.hpp"
+#include "tests/core/rational.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -2,10 +2,10 @@
 #include <gtest/gtest.h>
 
 #include "barycert/surface.hpp"
-#include "barycert/surface/parts.hpp"
-#include "core/rational.hpp"
-#include "surface/fields.hpp"
-#include "surface/judge.hpp"
+#include "mesh/surface/parts.hpp"
+#include "tests/core/rational.hpp"
+#include "tests/surface/fields.hpp"
+#include "tests/surface/judge.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -15,9 +15,9 @@
 
 #include <cmath>
 
-#include "barycert/base/disjoint_sets.hpp"
+#include "core/base/disjoint_sets.hpp"
 #include "barycert/surface.hpp"
-#include "check/meshes.hpp"
+#include "tests/check/meshes.hpp"
 
 namespace barycert::testing {
 namespace {

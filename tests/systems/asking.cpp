@@ -1,4 +1,4 @@
-#include "systems/asking.hpp"
+#include "tests/systems/asking.hpp"
 
 #include <sys/wait.h>
 
@@ -7,12 +7,12 @@
 #include <cstdio>
 #include <fstream>
 
-#include "barycert/base/text.hpp"
+#include "core/base/text.hpp"
 #include "barycert/sampler.hpp"
-#include "mesh/whole_cells.hpp"
-#include "scratch.hpp"
-#include "systems/exchange.hpp"
-#include "systems/point_sets.hpp"
+#include "tests/mesh/whole_cells.hpp"
+#include "tests/scratch.hpp"
+#include "tests/systems/exchange.hpp"
+#include "tests/systems/point_sets.hpp"
 
 namespace barycert::systems {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "systems/league.hpp"
+#include "tests/systems/league.hpp"
 
 namespace barycert::systems {
 

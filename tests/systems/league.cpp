@@ -1,4 +1,4 @@
-#include "systems/league.hpp"
+#include "tests/systems/league.hpp"
 
 #include <fmt/format.h>
 

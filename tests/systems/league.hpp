@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "barycert/verify.hpp"
-#include "systems/test_meshes.hpp"
+#include "tests/systems/test_meshes.hpp"
 
 namespace barycert::systems {
 

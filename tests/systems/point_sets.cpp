@@ -1,4 +1,4 @@
-#include "systems/point_sets.hpp"
+#include "tests/systems/point_sets.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,11 +8,11 @@
 #include <map>
 #include <numeric>
 
-#include "barycert/base/random.hpp"
+#include "core/base/random.hpp"
 #include "barycert/grid.hpp"
-#include "barycert/mesh/pulling.hpp"
-#include "mesh/whole_cells.hpp"
-#include "systems/test_meshes.hpp"
+#include "mesh/pulling.hpp"
+#include "tests/mesh/whole_cells.hpp"
+#include "tests/systems/test_meshes.hpp"
 
 namespace barycert::systems {
 namespace {

@@ -3,9 +3,9 @@
 #include <cstdio>
 #include <string>
 
-#include "barycert/io/formats.hpp"
+#include "io/formats.hpp"
 #include "barycert/sampler.hpp"
-#include "systems/exchange.hpp"
+#include "tests/systems/exchange.hpp"
 
 namespace {
 

@@ -23,7 +23,7 @@
 #include <string>
 #include <utility>
 
-#include "systems/exchange.hpp"
+#include "tests/systems/exchange.hpp"
 
 namespace {
 

@@ -23,8 +23,8 @@
 
 #include <limits>
 
-#include "systems/exchange.hpp"
-#include "vtk_grid.hpp"
+#include "tests/systems/exchange.hpp"
+#include "tests/vtk_grid.hpp"
 
 namespace {
 

@@ -12,9 +12,9 @@
 #include <optional>
 #include <string>
 
-#include "barycert/base/output_file.hpp"
-#include "systems/asking.hpp"
-#include "systems/point_sets.hpp"
+#include "files/output_file.hpp"
+#include "tests/systems/asking.hpp"
+#include "tests/systems/point_sets.hpp"
 
 namespace {
 

@@ -3,8 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "scratch.hpp"
-#include "systems/asking.hpp"
+#include "tests/scratch.hpp"
+#include "tests/systems/asking.hpp"
 
 namespace barycert::systems {
 namespace {

@@ -1,14 +1,14 @@
-#include "systems/test_meshes.hpp"
+#include "tests/systems/test_meshes.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
 
-#include "barycert/base/random.hpp"
+#include "core/base/random.hpp"
 #include "barycert/grid.hpp"
 #include "barycert/io.hpp"
-#include "bench/generated_mesh.hpp"
+#include "tests/bench/generated_mesh.hpp"
 
 namespace barycert::systems {
 namespace {

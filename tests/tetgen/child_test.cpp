@@ -1,5 +1,5 @@
 /// Every way in which a child can end is told apart.
-#include "tetgen/child.hpp"
+#include "app/tetgen/child.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

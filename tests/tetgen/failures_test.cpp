@@ -1,5 +1,5 @@
 /// Every failure: exit code 2, an `error:` line that names the file, nothing written.
-#include "tetgen/harness.hpp"
+#include "tests/tetgen/harness.hpp"
 
 namespace barycert::test {
 namespace {

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "tetgen/harness.hpp"
+#include "tests/tetgen/harness.hpp"
 
 namespace barycert::test {
 namespace {

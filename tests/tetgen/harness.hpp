@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "barycert/io.hpp"
-#include "scratch.hpp"
+#include "tests/scratch.hpp"
 
 namespace barycert::test {
 

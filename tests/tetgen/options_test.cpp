@@ -1,7 +1,7 @@
 /// Every option has its effect.
 #include <cmath>
 
-#include "tetgen/harness.hpp"
+#include "tests/tetgen/harness.hpp"
 
 namespace barycert::test {
 namespace {

@@ -1,6 +1,6 @@
 // Where the error of one value is counted.
 
-#include "barycert/verify/errors.hpp"
+#include "mesh/verify/errors.hpp"
 
 #include <gtest/gtest.h>
 

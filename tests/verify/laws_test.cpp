@@ -9,10 +9,10 @@
 #include "barycert/grid.hpp"
 #include "barycert/io.hpp"
 #include "barycert/verify.hpp"
-#include "check/random_complexes.hpp"
-#include "locate/judge.hpp"
-#include "locate/points.hpp"
-#include "sample/points/rows.hpp"
+#include "tests/check/random_complexes.hpp"
+#include "tests/locate/judge.hpp"
+#include "tests/locate/points.hpp"
+#include "tests/sample/points/rows.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <optional>
 
-#include "barycert/base/random.hpp"
+#include "core/base/random.hpp"
 #include "barycert/grid.hpp"
 #include "barycert/io.hpp"
 #include "barycert/verify.hpp"

@@ -22,14 +22,14 @@
 #include <functional>
 #include <limits>
 
-#include "barycert/base/random.hpp"
+#include "core/base/random.hpp"
 #include "barycert/grid.hpp"
 #include "barycert/io.hpp"
 #include "barycert/jobs.hpp"
-#include "io/tetgen/mesh_files.hpp"
-#include "locate/judge.hpp"
-#include "locate/points.hpp"
-#include "sample/points/rows.hpp"
+#include "tests/io/tetgen/mesh_files.hpp"
+#include "tests/locate/judge.hpp"
+#include "tests/locate/points.hpp"
+#include "tests/sample/points/rows.hpp"
 
 namespace barycert::testing {
 namespace {

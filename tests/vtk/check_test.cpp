@@ -21,10 +21,10 @@
 #include <vtkTable.h>
 #include <vtkUnsignedCharArray.h>
 
-#include "check/judge.hpp"
-#include "check/meshes.hpp"
-#include "vtk/grids.hpp"
-#include "vtk/mixed_grids.hpp"
+#include "tests/check/judge.hpp"
+#include "tests/check/meshes.hpp"
+#include "tests/vtk/grids.hpp"
+#include "tests/vtk/mixed_grids.hpp"
 #include "vtkBarycertCheck.h"
 
 namespace barycert::testing {

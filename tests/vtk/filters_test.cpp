@@ -17,10 +17,10 @@
 #include <vtkResampleWithDataSet.h>
 #include <vtkStreamTracer.h>
 
-#include "check/meshes.hpp"
-#include "locate/judge.hpp"
-#include "locate/points.hpp"
-#include "vtk/grids.hpp"
+#include "tests/check/meshes.hpp"
+#include "tests/locate/judge.hpp"
+#include "tests/locate/points.hpp"
+#include "tests/vtk/grids.hpp"
 #include "vtkBarycertLocator.h"
 
 namespace barycert::testing {

@@ -1,4 +1,4 @@
-#include "vtk/grids.hpp"
+#include "tests/vtk/grids.hpp"
 
 #include <mutex>
 

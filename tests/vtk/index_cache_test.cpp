@@ -13,7 +13,7 @@
 #include <vtkResampleWithDataSet.h>
 
 #include "vtk/exact_index.hpp"
-#include "vtk/grids.hpp"
+#include "tests/vtk/grids.hpp"
 #include "vtkBarycertLocator.h"
 
 namespace barycert::testing {

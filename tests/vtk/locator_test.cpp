@@ -22,9 +22,9 @@
 #include <vtkPoints.h>
 #include <vtkWeakPointer.h>
 
-#include "check/meshes.hpp"
-#include "locate/points.hpp"
-#include "vtk/grids.hpp"
+#include "tests/check/meshes.hpp"
+#include "tests/locate/points.hpp"
+#include "tests/vtk/grids.hpp"
 #include "vtkBarycertLocator.h"
 
 namespace barycert::testing {

@@ -15,7 +15,7 @@
 #include <vtkSmartPointer.h>
 #include <vtkUnstructuredGrid.h>
 
-#include "barycert/base/random.hpp"
+#include "core/base/random.hpp"
 
 namespace barycert::testing {
 

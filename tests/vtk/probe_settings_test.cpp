@@ -22,7 +22,7 @@
 #include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkUnstructuredGridAlgorithm.h>
 
-#include "vtk/grids.hpp"
+#include "tests/vtk/grids.hpp"
 #include "vtkBarycertProbe.h"
 
 namespace barycert::testing {

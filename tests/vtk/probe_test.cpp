@@ -19,10 +19,10 @@
 #include <vtkUnsignedCharArray.h>
 
 #include "barycert/oracle.hpp"
-#include "check/meshes.hpp"
-#include "locate/judge.hpp"
-#include "locate/points.hpp"
-#include "vtk/grids.hpp"
+#include "tests/check/meshes.hpp"
+#include "tests/locate/judge.hpp"
+#include "tests/locate/points.hpp"
+#include "tests/vtk/grids.hpp"
 #include "vtkBarycertProbe.h"
 
 namespace barycert::testing {

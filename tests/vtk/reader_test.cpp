@@ -13,9 +13,9 @@
 #include <vtkTypeInt64Array.h>
 
 #include "barycert/io.hpp"
-#include "check/meshes.hpp"
-#include "scratch.hpp"
-#include "vtk/grids.hpp"
+#include "tests/check/meshes.hpp"
+#include "tests/scratch.hpp"
+#include "tests/vtk/grids.hpp"
 #include "vtkBarycertTetGenReader.h"
 
 namespace barycert::testing {

@@ -23,8 +23,8 @@
 #include <vtkUnsignedCharArray.h>
 
 #include "barycert/check.hpp"
-#include "check/surfaces.hpp"
-#include "vtk/grids.hpp"
+#include "tests/check/surfaces.hpp"
+#include "tests/vtk/grids.hpp"
 #include "vtkBarycertCheck.h"
 
 namespace barycert::testing {

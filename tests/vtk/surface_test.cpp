@@ -29,8 +29,8 @@
 #include <vtkUnsignedCharArray.h>
 
 #include "barycert/surface_locator.hpp"
-#include "check/surfaces.hpp"
-#include "vtk/grids.hpp"
+#include "tests/check/surfaces.hpp"
+#include "tests/vtk/grids.hpp"
 #include "vtkBarycertLocator.h"
 #include "vtkBarycertProbe.h"
 

@@ -18,8 +18,8 @@
 #include <vtkStaticCellLocator.h>
 #include <vtkTetra.h>
 
-#include "check/meshes.hpp"
-#include "vtk/grids.hpp"
+#include "tests/check/meshes.hpp"
+#include "tests/vtk/grids.hpp"
 #include "vtkBarycertLocator.h"
 
 namespace barycert::testing {

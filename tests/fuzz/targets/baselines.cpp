@@ -1,7 +1,7 @@
 // Baselines: the JSON of an earlier audit.
 #include "barycert/audit.hpp"
-#include "fuzz/files.hpp"
-#include "fuzz/target.hpp"
+#include "tests/fuzz/files.hpp"
+#include "tests/fuzz/target.hpp"
 
 namespace barycert::fuzz {
 

@@ -1,7 +1,7 @@
 // Shared libraries of kernels, looked at before the system loads them.
-#include "barycert/kernels/registry.hpp"
-#include "fuzz/files.hpp"
-#include "fuzz/target.hpp"
+#include "audit/kernels/registry.hpp"
+#include "tests/fuzz/files.hpp"
+#include "tests/fuzz/target.hpp"
 
 namespace barycert::fuzz {
 

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "barycert/sampler.hpp"
-#include "fuzz/small_meshes.hpp"
-#include "fuzz/target.hpp"
+#include "tests/fuzz/small_meshes.hpp"
+#include "tests/fuzz/target.hpp"
 
 namespace barycert::fuzz {
 

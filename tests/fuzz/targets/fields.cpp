@@ -1,9 +1,9 @@
 // Fields in files of their own: text, CSV, NPY. The first byte: which, and the column.
 #include <array>
 
-#include "barycert/io/formats.hpp"
-#include "fuzz/files.hpp"
-#include "fuzz/target.hpp"
+#include "io/formats.hpp"
+#include "tests/fuzz/files.hpp"
+#include "tests/fuzz/target.hpp"
 
 namespace barycert::fuzz {
 

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <bit>
 
-#include "barycert/sample/map/map_format.hpp"
-#include "fuzz/files.hpp"
-#include "fuzz/small_meshes.hpp"
-#include "fuzz/target.hpp"
+#include "mesh/sample/map/map_format.hpp"
+#include "tests/fuzz/files.hpp"
+#include "tests/fuzz/small_meshes.hpp"
+#include "tests/fuzz/target.hpp"
 
 namespace barycert::fuzz {
 namespace {

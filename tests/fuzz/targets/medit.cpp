@@ -1,9 +1,9 @@
 // Medit's files, text and binary: meshes, and fields alone. The first byte: which.
-#include "barycert/io/formats.hpp"
+#include "io/formats.hpp"
 
-#include "fuzz/files.hpp"
-#include "fuzz/same.hpp"
-#include "fuzz/target.hpp"
+#include "tests/fuzz/files.hpp"
+#include "tests/fuzz/same.hpp"
+#include "tests/fuzz/target.hpp"
 
 namespace barycert::fuzz {
 

@@ -2,9 +2,9 @@
 #include <array>
 
 #include "barycert/io.hpp"
-#include "fuzz/files.hpp"
-#include "fuzz/same.hpp"
-#include "fuzz/target.hpp"
+#include "tests/fuzz/files.hpp"
+#include "tests/fuzz/same.hpp"
+#include "tests/fuzz/target.hpp"
 
 namespace barycert::fuzz {
 

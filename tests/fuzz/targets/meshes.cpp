@@ -5,15 +5,15 @@
 
 #include "barycert/check.hpp"
 #include "barycert/grid.hpp"
-#include "barycert/locate/locator_data.hpp"
+#include "mesh/locate/locator_data.hpp"
 #include "barycert/locator.hpp"
 #include "barycert/oracle.hpp"
 #include "barycert/sampler.hpp"
-#include "check/judge.hpp"
-#include "fuzz/drawn.hpp"
-#include "fuzz/same.hpp"
-#include "fuzz/target.hpp"
-#include "locate/judge.hpp"
+#include "tests/check/judge.hpp"
+#include "tests/fuzz/drawn.hpp"
+#include "tests/fuzz/same.hpp"
+#include "tests/fuzz/target.hpp"
+#include "tests/locate/judge.hpp"
 
 namespace barycert::fuzz {
 namespace {

@@ -4,10 +4,10 @@
 #include <limits>
 
 #include "barycert/locator.hpp"
-#include "fuzz/drawn.hpp"
-#include "fuzz/target.hpp"
-#include "locate/judge.hpp"
-#include "locate/nearest_judge.hpp"
+#include "tests/fuzz/drawn.hpp"
+#include "tests/fuzz/target.hpp"
+#include "tests/locate/judge.hpp"
+#include "tests/locate/nearest_judge.hpp"
 
 namespace barycert::fuzz {
 

@@ -1,7 +1,7 @@
 // Points in a .node file.
-#include "fuzz/files.hpp"
-#include "fuzz/points_round_trip.hpp"
-#include "fuzz/target.hpp"
+#include "tests/fuzz/files.hpp"
+#include "tests/fuzz/points_round_trip.hpp"
+#include "tests/fuzz/target.hpp"
 
 namespace barycert::fuzz {
 

@@ -1,7 +1,7 @@
 // What other systems and formulas under compiler flags answered: JSON for the page of an audit.
 #include "barycert/audit_report.hpp"
-#include "fuzz/files.hpp"
-#include "fuzz/target.hpp"
+#include "tests/fuzz/files.hpp"
+#include "tests/fuzz/target.hpp"
 
 namespace barycert::fuzz {
 

@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "fuzz/files.hpp"
-#include "fuzz/target.hpp"
+#include "tests/fuzz/files.hpp"
+#include "tests/fuzz/target.hpp"
 
 namespace barycert::fuzz {
 namespace {

@@ -1,7 +1,7 @@
 // PNG files: textures.
 #include "barycert/raster.hpp"
-#include "fuzz/files.hpp"
-#include "fuzz/target.hpp"
+#include "tests/fuzz/files.hpp"
+#include "tests/fuzz/target.hpp"
 
 namespace barycert::fuzz {
 

@@ -3,7 +3,7 @@
 
 #include "barycert/audit.hpp"
 #include "barycert/jobs.hpp"
-#include "fuzz/target.hpp"
+#include "tests/fuzz/target.hpp"
 
 namespace barycert::fuzz {
 

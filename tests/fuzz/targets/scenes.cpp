@@ -1,8 +1,8 @@
 // Scenes of triangles in JSON; small ones are drawn.
 #include "barycert/scene.hpp"
 
-#include "fuzz/files.hpp"
-#include "fuzz/target.hpp"
+#include "tests/fuzz/files.hpp"
+#include "tests/fuzz/target.hpp"
 
 namespace barycert::fuzz {
 namespace {

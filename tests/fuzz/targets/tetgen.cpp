@@ -1,9 +1,9 @@
 // TetGen's and Triangle's files: .node, .ele, .face and .neigh, with form feeds between them. The last two may be
 // missing.
 #include "barycert/io.hpp"
-#include "fuzz/files.hpp"
-#include "fuzz/same.hpp"
-#include "fuzz/target.hpp"
+#include "tests/fuzz/files.hpp"
+#include "tests/fuzz/same.hpp"
+#include "tests/fuzz/target.hpp"
 
 namespace barycert::fuzz {
 

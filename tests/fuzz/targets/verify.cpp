@@ -3,9 +3,9 @@
 
 #include "barycert/io.hpp"
 #include "barycert/jobs.hpp"
-#include "fuzz/files.hpp"
-#include "fuzz/small_meshes.hpp"
-#include "fuzz/target.hpp"
+#include "tests/fuzz/files.hpp"
+#include "tests/fuzz/small_meshes.hpp"
+#include "tests/fuzz/target.hpp"
 
 namespace barycert::fuzz {
 namespace {

@@ -4,9 +4,9 @@
 #include <memory>
 
 #include "barycert/io.hpp"
-#include "fuzz/files.hpp"
-#include "fuzz/target.hpp"
-#include "fuzz/vtk_round_trip.hpp"
+#include "tests/fuzz/files.hpp"
+#include "tests/fuzz/target.hpp"
+#include "tests/fuzz/vtk_round_trip.hpp"
 
 namespace barycert::fuzz {
 

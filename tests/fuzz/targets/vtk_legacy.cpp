@@ -1,7 +1,7 @@
 // A mesh in VTK's legacy format, text or binary.
-#include "fuzz/files.hpp"
-#include "fuzz/target.hpp"
-#include "fuzz/vtk_round_trip.hpp"
+#include "tests/fuzz/files.hpp"
+#include "tests/fuzz/target.hpp"
+#include "tests/fuzz/vtk_round_trip.hpp"
 
 namespace barycert::fuzz {
 

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <sstream>
 
-#include "fuzz/files.hpp"
-#include "fuzz/points_round_trip.hpp"
-#include "fuzz/target.hpp"
+#include "tests/fuzz/files.hpp"
+#include "tests/fuzz/points_round_trip.hpp"
+#include "tests/fuzz/target.hpp"
 
 namespace barycert::fuzz {
 

@@ -8,8 +8,8 @@
 
 #include "barycert/oracle.hpp"
 #include "barycert/predicates.hpp"
-#include "fuzz/drawn.hpp"
-#include "fuzz/target.hpp"
+#include "tests/fuzz/drawn.hpp"
+#include "tests/fuzz/target.hpp"
 
 namespace barycert::fuzz {
 namespace {

@@ -3,8 +3,8 @@
 #include <cstdint>
 
 #include "barycert/audit.hpp"
-#include "fuzz/files.hpp"
-#include "fuzz/target.hpp"
+#include "tests/fuzz/files.hpp"
+#include "tests/fuzz/target.hpp"
 
 namespace barycert::fuzz {
 namespace {

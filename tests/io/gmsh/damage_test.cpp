@@ -1,5 +1,5 @@
 // Files cut and changed at every byte: an error or a mesh, the same on any number of threads. Run under sanitizers too.
-#include "io/gmsh/msh_files.hpp"
+#include "tests/io/gmsh/msh_files.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -1,5 +1,5 @@
 // What is refused, in words.
-#include "io/gmsh/msh_files.hpp"
+#include "tests/io/gmsh/msh_files.hpp"
 
 namespace barycert::testing {
 namespace {

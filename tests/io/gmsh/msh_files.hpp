@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "barycert/base/random.hpp"
-#include "barycert/base/text.hpp"
+#include "core/base/random.hpp"
+#include "core/base/text.hpp"
 #include "barycert/io.hpp"
-#include "io/tetgen/mesh_files.hpp"
+#include "tests/io/tetgen/mesh_files.hpp"
 
 namespace barycert::testing {
 

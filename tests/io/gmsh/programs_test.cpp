@@ -5,8 +5,8 @@
 #include <set>
 
 #include "barycert/check.hpp"
-#include "barycert/mesh/mid_edges.hpp"
-#include "io/gmsh/msh_files.hpp"
+#include "mesh/mid_edges.hpp"
+#include "tests/io/gmsh/msh_files.hpp"
 
 namespace barycert::testing {
 namespace {

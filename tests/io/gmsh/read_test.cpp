@@ -1,7 +1,7 @@
 // What is read of a .msh file, the same from every version and form.
 #include <cmath>
 
-#include "io/gmsh/msh_files.hpp"
+#include "tests/io/gmsh/msh_files.hpp"
 
 namespace barycert::testing {
 namespace {

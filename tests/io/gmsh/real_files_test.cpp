@@ -1,7 +1,7 @@
 // Files from real programs, in a folder beside the checkout that may be absent.
 #include <filesystem>
 
-#include "io/gmsh/msh_files.hpp"
+#include "tests/io/gmsh/msh_files.hpp"
 
 namespace barycert::testing {
 namespace {

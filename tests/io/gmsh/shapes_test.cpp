@@ -7,7 +7,7 @@
 
 #include "barycert/check.hpp"
 #include "barycert/sampler.hpp"
-#include "io/gmsh/msh_files.hpp"
+#include "tests/io/gmsh/msh_files.hpp"
 
 namespace barycert::testing {
 namespace {

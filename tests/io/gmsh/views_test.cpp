@@ -1,7 +1,7 @@
 // $NodeData and $ElementData: fields, gaps, steps.
 #include <cmath>
 
-#include "io/gmsh/msh_files.hpp"
+#include "tests/io/gmsh/msh_files.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "io/gmsh/msh_files.hpp"
-#include "io/tetgen/random_mesh.hpp"
+#include "tests/io/gmsh/msh_files.hpp"
+#include "tests/io/tetgen/random_mesh.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -1,6 +1,6 @@
 // Files cut and changed at every byte: an error or a mesh, the same on any number of threads. Run under sanitizers too.
-#include "barycert/mesh/consistency.hpp"
-#include "io/medit/medit_files.hpp"
+#include "mesh/consistency.hpp"
+#include "tests/io/medit/medit_files.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -1,6 +1,6 @@
 // What is refused, and in what words.
 
-#include "io/medit/medit_files.hpp"
+#include "tests/io/medit/medit_files.hpp"
 
 namespace barycert::testing {
 namespace {

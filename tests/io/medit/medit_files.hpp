@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "barycert/io/formats.hpp"
-#include "io/gmsh/msh_files.hpp"
+#include "io/formats.hpp"
+#include "tests/io/gmsh/msh_files.hpp"
 
 namespace barycert::testing {
 

@@ -3,7 +3,7 @@
 #include <cstring>
 
 #include "barycert/check.hpp"
-#include "io/medit/medit_files.hpp"
+#include "tests/io/medit/medit_files.hpp"
 
 namespace barycert::testing {
 namespace {

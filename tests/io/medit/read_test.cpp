@@ -1,5 +1,5 @@
 // Meshes in all versions and forms.
-#include "io/medit/medit_files.hpp"
+#include "tests/io/medit/medit_files.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -2,7 +2,7 @@
 #include <filesystem>
 
 #include "barycert/check.hpp"
-#include "io/medit/medit_files.hpp"
+#include "tests/io/medit/medit_files.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -1,6 +1,6 @@
 // Hexahedra, prisms, pyramids and quadrilaterals.
 #include "barycert/check.hpp"
-#include "io/medit/medit_files.hpp"
+#include "tests/io/medit/medit_files.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "barycert/io.hpp"
-#include "scratch.hpp"
+#include "tests/scratch.hpp"
 
 namespace barycert::testing {
 namespace {

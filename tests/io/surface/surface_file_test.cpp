@@ -1,5 +1,5 @@
 // PLY and OFF files, read again: PLY by what its header says, OFF by the reader of PLCs. VTP files are VTK's to judge.
-#include "io/surface/surface_files.hpp"
+#include "tests/io/surface/surface_files.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "barycert/io.hpp"
-#include "io/tetgen/mesh_files.hpp"
+#include "tests/io/tetgen/mesh_files.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -1,6 +1,6 @@
 // Damaged files: an error or the right mesh, never a crash. Run under sanitizers too.
-#include "io/tetgen/mesh_files.hpp"
-#include "io/tetgen/random_mesh.hpp"
+#include "tests/io/tetgen/mesh_files.hpp"
+#include "tests/io/tetgen/random_mesh.hpp"
 
 namespace barycert::testing {
 namespace {

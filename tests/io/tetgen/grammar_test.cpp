@@ -1,7 +1,7 @@
 // Every point of the grammar at the head of tetgen_reader.cpp, and every trap that TetGen falls into.
 #include <cmath>
 
-#include "io/tetgen/mesh_files.hpp"
+#include "tests/io/tetgen/mesh_files.hpp"
 
 namespace barycert::testing {
 namespace {

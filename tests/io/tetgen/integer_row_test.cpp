@@ -1,11 +1,11 @@
 // The fast row against the general scanner: it may say "don't know", and never anything else than the scanner says.
-#include "barycert/io/tetgen/scanner.hpp"
+#include "io/tetgen/scanner.hpp"
 
 #include <string>
 
 #include <gtest/gtest.h>
 
-#include "barycert/base/random.hpp"
+#include "core/base/random.hpp"
 
 namespace barycert::detail {
 namespace {

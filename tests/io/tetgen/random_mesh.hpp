@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "barycert/base/random.hpp"
+#include "core/base/random.hpp"
 #include "barycert/mesh.hpp"
-#include "barycert/mesh/mid_edges.hpp"
+#include "mesh/mid_edges.hpp"
 
 namespace barycert::testing {
 

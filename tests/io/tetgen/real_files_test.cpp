@@ -2,7 +2,7 @@
 #include <filesystem>
 #include <set>
 
-#include "io/tetgen/mesh_files.hpp"
+#include "tests/io/tetgen/mesh_files.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <rapidcheck/gtest.h>
 
-#include "io/tetgen/mesh_files.hpp"
-#include "io/tetgen/random_mesh.hpp"
+#include "tests/io/tetgen/mesh_files.hpp"
+#include "tests/io/tetgen/random_mesh.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -1,7 +1,7 @@
 #include <limits>
 
-#include "io/tetgen/mesh_files.hpp"
-#include "io/tetgen/random_mesh.hpp"
+#include "tests/io/tetgen/mesh_files.hpp"
+#include "tests/io/tetgen/random_mesh.hpp"
 
 namespace barycert::testing {
 namespace {

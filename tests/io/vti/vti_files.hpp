@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "barycert/base/random.hpp"
-#include "barycert/io/vti/vti.hpp"
+#include "core/base/random.hpp"
+#include "io/vti/vti.hpp"
 
 namespace barycert::testing {
 

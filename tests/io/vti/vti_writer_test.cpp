@@ -1,4 +1,4 @@
-#include "barycert/io/vti/vti.hpp"
+#include "io/vti/vti.hpp"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -10,8 +10,8 @@
 #include <string>
 #include <thread>
 
-#include "io/tetgen/mesh_files.hpp"
-#include "io/vti/vti_files.hpp"
+#include "tests/io/tetgen/mesh_files.hpp"
+#include "tests/io/vti/vti_files.hpp"
 
 namespace barycert::testing {
 namespace {

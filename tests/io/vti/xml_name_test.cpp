@@ -1,4 +1,4 @@
-#include "barycert/io/vtk/out_file.hpp"
+#include "io/vtk/out_file.hpp"
 
 #include <gtest/gtest.h>
 

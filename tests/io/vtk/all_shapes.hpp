@@ -3,8 +3,8 @@
 
 #include <numeric>
 
-#include "io/vtk/mesh_notes.hpp"
-#include "mesh/shaped_mesh.hpp"
+#include "tests/io/vtk/mesh_notes.hpp"
+#include "tests/mesh/shaped_mesh.hpp"
 
 namespace barycert::testing {
 

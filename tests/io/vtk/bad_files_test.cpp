@@ -2,8 +2,8 @@
 #include <functional>
 
 #include "barycert/io.hpp"
-#include "io/vtk/good_files.hpp"
-#include "io/vtk/mesh_notes.hpp"
+#include "tests/io/vtk/good_files.hpp"
+#include "tests/io/vtk/mesh_notes.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -1,7 +1,7 @@
 /// Files that name files: partitioned data sets, blocks, series; and points of grids.
 #include "barycert/io.hpp"
 
-#include "io/vtk/mesh_notes.hpp"
+#include "tests/io/vtk/mesh_notes.hpp"
 
 namespace barycert::testing {
 namespace {

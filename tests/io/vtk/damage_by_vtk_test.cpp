@@ -1,11 +1,11 @@
 /// Files that VTK wrote, damaged: a mesh or an error, never a crash, nothing printed.
 #include <vtkXMLUnstructuredGridWriter.h>
 
-#include "barycert/base/random.hpp"
+#include "core/base/random.hpp"
 #include "barycert/io.hpp"
-#include "io/vtk/good_files.hpp"
-#include "io/vtk/mixed_grid.hpp"
-#include "io/vtk/vtk_files.hpp"
+#include "tests/io/vtk/good_files.hpp"
+#include "tests/io/vtk/mixed_grid.hpp"
+#include "tests/io/vtk/vtk_files.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -3,12 +3,12 @@
 
 #include <chrono>
 
-#include "barycert/base/random.hpp"
+#include "core/base/random.hpp"
 #include "barycert/io.hpp"
-#include "barycert/io/vtk/packed.hpp"
-#include "io/tetgen/mesh_files.hpp"
-#include "io/vtk/mesh_notes.hpp"
-#include "sanitized.hpp"
+#include "io/vtk/packed.hpp"
+#include "tests/io/tetgen/mesh_files.hpp"
+#include "tests/io/vtk/mesh_notes.hpp"
+#include "tests/sanitized.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -1,7 +1,7 @@
 /// Strings and wide integers of cells, cell numbers, ghost cells and notes, in files written here.
 #include "barycert/io.hpp"
 
-#include "io/vtk/mesh_notes.hpp"
+#include "tests/io/vtk/mesh_notes.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "barycert/io.hpp"
-#include "io/tetgen/mesh_files.hpp"
+#include "tests/io/tetgen/mesh_files.hpp"
 
 namespace barycert::testing {
 

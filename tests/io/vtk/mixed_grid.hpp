@@ -17,7 +17,7 @@
 #include <array>
 #include <cmath>
 
-#include "io/vtk/vtk_files.hpp"
+#include "tests/io/vtk/vtk_files.hpp"
 
 namespace barycert::testing {
 

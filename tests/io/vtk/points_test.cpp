@@ -10,7 +10,7 @@
 #include <limits>
 
 #include "barycert/io.hpp"
-#include "io/vtk/vtk_files.hpp"
+#include "tests/io/vtk/vtk_files.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <limits>
 
-#include "io/tetgen/random_mesh.hpp"
-#include "io/vtk/mixed_grid.hpp"
-#include "io/vtk/vtk_files.hpp"
+#include "tests/io/tetgen/random_mesh.hpp"
+#include "tests/io/vtk/mixed_grid.hpp"
+#include "tests/io/vtk/vtk_files.hpp"
 
 namespace barycert::testing {
 namespace {

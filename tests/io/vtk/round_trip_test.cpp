@@ -2,8 +2,8 @@
 #include <limits>
 
 #include "barycert/io.hpp"
-#include "io/tetgen/random_mesh.hpp"
-#include "io/vtk/mesh_notes.hpp"
+#include "tests/io/tetgen/random_mesh.hpp"
+#include "tests/io/vtk/mesh_notes.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -1,9 +1,9 @@
 /// Rows of any number into .vtu files: what is kept beside the target on the way.
 #include <limits>
 
-#include "io/vtk/mesh_notes.hpp"
+#include "tests/io/vtk/mesh_notes.hpp"
 
-#include "barycert/base/spool.hpp"
+#include "files/spool.hpp"
 #include "barycert/io.hpp"
 
 namespace barycert::testing {

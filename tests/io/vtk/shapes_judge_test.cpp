@@ -18,8 +18,8 @@
 #include <vtkXMLUnstructuredGridReader.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
-#include "io/vtk/all_shapes.hpp"
-#include "io/vtk/vtk_files.hpp"
+#include "tests/io/vtk/all_shapes.hpp"
+#include "tests/io/vtk/vtk_files.hpp"
 
 namespace barycert::testing {
 namespace {

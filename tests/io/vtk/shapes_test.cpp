@@ -1,9 +1,9 @@
 /// Cells of all shapes: what is written is read back; structured grids as text; files that are wrong.
 #include <sys/resource.h>
 
-#include "barycert/base/random.hpp"
-#include "barycert/mesh/consistency.hpp"
-#include "io/vtk/all_shapes.hpp"
+#include "core/base/random.hpp"
+#include "mesh/consistency.hpp"
+#include "tests/io/vtk/all_shapes.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -11,8 +11,8 @@
 #include <cstring>
 #include <limits>
 
-#include "io/tetgen/mesh_files.hpp"
-#include "io/vti/vti_files.hpp"
+#include "tests/io/tetgen/mesh_files.hpp"
+#include "tests/io/vti/vti_files.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -10,9 +10,9 @@
 #include <vtkXMLUnstructuredGridReader.h>
 
 #include "barycert/surface.hpp"
-#include "io/tetgen/random_mesh.hpp"
-#include "io/vti/vti_files.hpp"
-#include "io/vtk/vtk_files.hpp"
+#include "tests/io/tetgen/random_mesh.hpp"
+#include "tests/io/vti/vti_files.hpp"
+#include "tests/io/vtk/vtk_files.hpp"
 
 namespace barycert::testing {
 namespace {

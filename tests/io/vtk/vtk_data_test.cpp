@@ -10,8 +10,8 @@
 #include <thread>
 
 #include "barycert/io.hpp"
-#include "io/tetgen/random_mesh.hpp"
-#include "io/vtk/mesh_notes.hpp"
+#include "tests/io/tetgen/random_mesh.hpp"
+#include "tests/io/vtk/mesh_notes.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "barycert/io.hpp"
-#include "io/tetgen/mesh_files.hpp"
-#include "io/vtk/mesh_notes.hpp"
+#include "tests/io/tetgen/mesh_files.hpp"
+#include "tests/io/vtk/mesh_notes.hpp"
 
 namespace barycert::testing {
 

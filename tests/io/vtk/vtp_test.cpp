@@ -10,8 +10,8 @@
 #include <vtkPolyData.h>
 #include <vtkXMLPolyDataReader.h>
 
-#include "io/surface/surface_files.hpp"
-#include "io/vtk/vtk_files.hpp"
+#include "tests/io/surface/surface_files.hpp"
+#include "tests/io/vtk/vtk_files.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -1,15 +1,15 @@
-#include "sample/grid/compare.hpp"
+#include "tests/sample/grid/compare.hpp"
 
 #include <gtest/gtest.h>
 
 #include <bit>
 #include <cstdint>
 
-#include "barycert/base/text.hpp"
+#include "core/base/text.hpp"
 #include "barycert/io.hpp"
-#include "check/meshes.hpp"
-#include "locate/points.hpp"
-#include "sample/points/rows.hpp"
+#include "tests/check/meshes.hpp"
+#include "tests/locate/points.hpp"
+#include "tests/sample/points/rows.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "barycert/base/random.hpp"
+#include "core/base/random.hpp"
 #include "barycert/grid.hpp"
 #include "barycert/mesh.hpp"
-#include "check/meshes.hpp"
+#include "tests/check/meshes.hpp"
 
 namespace barycert::testing {
 

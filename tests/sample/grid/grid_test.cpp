@@ -6,10 +6,10 @@
 #include <cmath>
 #include <limits>
 
-#include "check/meshes.hpp"
-#include "limits.hpp"
-#include "sample/grid/compare.hpp"
-#include "sample/points/rows.hpp"
+#include "tests/check/meshes.hpp"
+#include "tests/limits.hpp"
+#include "tests/sample/grid/compare.hpp"
+#include "tests/sample/points/rows.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sample/grid/compare.hpp"
+#include "tests/sample/grid/compare.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "check/meshes.hpp"
-#include "sample/grid/compare.hpp"
-#include "sample/points/rows.hpp"
+#include "tests/check/meshes.hpp"
+#include "tests/sample/grid/compare.hpp"
+#include "tests/sample/points/rows.hpp"
 
 namespace barycert::testing {
 namespace {

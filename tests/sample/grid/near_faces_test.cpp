@@ -8,11 +8,11 @@
 #include <cmath>
 
 #include "barycert/oracle.hpp"
-#include "check/meshes.hpp"
-#include "locate/judge.hpp"
-#include "locate/points.hpp"
-#include "sample/grid/compare.hpp"
-#include "sample/points/rows.hpp"
+#include "tests/check/meshes.hpp"
+#include "tests/locate/judge.hpp"
+#include "tests/locate/points.hpp"
+#include "tests/sample/grid/compare.hpp"
+#include "tests/sample/points/rows.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -1,5 +1,5 @@
 // Damaged maps: always an error with a remedy, never a crash and never a wrong row.
-#include "sample/map/maps.hpp"
+#include "tests/sample/map/maps.hpp"
 
 namespace barycert::testing {
 namespace {

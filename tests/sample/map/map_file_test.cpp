@@ -5,7 +5,7 @@
 #include <csignal>
 #include <limits>
 
-#include "sample/map/maps.hpp"
+#include "tests/sample/map/maps.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -1,8 +1,8 @@
 // Five million rows in the memory of a few blocks.
 #include <chrono>
 
-#include "sample/map/maps.hpp"
-#include "sanitized.hpp"
+#include "tests/sample/map/maps.hpp"
+#include "tests/sanitized.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "barycert/locator.hpp"
 #include "barycert/sampler.hpp"
-#include "sample/map/maps.hpp"
+#include "tests/sample/map/maps.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -8,10 +8,10 @@
 
 #include <gtest/gtest.h>
 
-#include "barycert/base/random.hpp"
+#include "core/base/random.hpp"
 #include "barycert/map.hpp"
-#include "io/tetgen/mesh_files.hpp"
-#include "io/tetgen/random_mesh.hpp"
+#include "tests/io/tetgen/mesh_files.hpp"
+#include "tests/io/tetgen/random_mesh.hpp"
 
 namespace barycert::testing {
 

@@ -6,7 +6,7 @@
 
 #include "barycert/grid.hpp"
 #include "barycert/io.hpp"
-#include "sample/points/rows.hpp"
+#include "tests/sample/points/rows.hpp"
 
 namespace barycert::testing {
 namespace {

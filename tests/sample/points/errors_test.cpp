@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "barycert/sampler.hpp"
-#include "check/meshes.hpp"
+#include "tests/check/meshes.hpp"
 
 namespace barycert::testing {
 namespace {

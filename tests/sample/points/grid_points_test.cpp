@@ -5,15 +5,15 @@
 #include <cmath>
 #include <limits>
 
-#include "barycert/base/random.hpp"
+#include "core/base/random.hpp"
 #include "barycert/check.hpp"
 #include "barycert/grid.hpp"
 #include "barycert/io.hpp"
-#include "barycert/mesh/pulling.hpp"
+#include "mesh/pulling.hpp"
 #include "barycert/surface.hpp"
 #include "barycert/verify.hpp"
-#include "sample/points/rows.hpp"
-#include "sample/quantity/quantities.hpp"
+#include "tests/sample/points/rows.hpp"
+#include "tests/sample/quantity/quantities.hpp"
 
 namespace barycert::testing {
 namespace {

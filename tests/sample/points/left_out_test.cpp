@@ -6,11 +6,11 @@
 #include <cmath>
 #include <cstdint>
 
-#include "barycert/locate/locator_data.hpp"
-#include "check/meshes.hpp"
-#include "limits.hpp"
-#include "locate/points.hpp"
-#include "sample/points/rows.hpp"
+#include "mesh/locate/locator_data.hpp"
+#include "tests/check/meshes.hpp"
+#include "tests/limits.hpp"
+#include "tests/locate/points.hpp"
+#include "tests/sample/points/rows.hpp"
 
 namespace barycert::testing {
 namespace {

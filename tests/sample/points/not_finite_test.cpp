@@ -12,11 +12,11 @@
 #include "barycert/grid.hpp"
 #include "barycert/map.hpp"
 #include "barycert/sampler.hpp"
-#include "check/meshes.hpp"
-#include "core/rational.hpp"
-#include "locate/points.hpp"
-#include "sample/points/rows.hpp"
-#include "scratch.hpp"
+#include "tests/check/meshes.hpp"
+#include "tests/core/rational.hpp"
+#include "tests/locate/points.hpp"
+#include "tests/sample/points/rows.hpp"
+#include "tests/scratch.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -8,9 +8,9 @@
 
 #include "barycert/environment.hpp"
 #include "barycert/io.hpp"
-#include "check/meshes.hpp"
-#include "locate/points.hpp"
-#include "sample/points/rows.hpp"
+#include "tests/check/meshes.hpp"
+#include "tests/locate/points.hpp"
+#include "tests/sample/points/rows.hpp"
 
 namespace barycert::testing {
 namespace {

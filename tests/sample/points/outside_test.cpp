@@ -5,13 +5,13 @@
 #include <cmath>
 #include <limits>
 
-#include "barycert/base/text.hpp"
+#include "core/base/text.hpp"
 #include "barycert/io.hpp"
 #include "barycert/oracle.hpp"
-#include "check/meshes.hpp"
-#include "limits.hpp"
-#include "locate/points.hpp"
-#include "sample/points/rows.hpp"
+#include "tests/check/meshes.hpp"
+#include "tests/limits.hpp"
+#include "tests/locate/points.hpp"
+#include "tests/sample/points/rows.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -1,4 +1,4 @@
-#include "sample/points/rows.hpp"
+#include "tests/sample/points/rows.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,10 +8,10 @@
 #include <cstdint>
 #include <limits>
 
-#include "barycert/base/text.hpp"
+#include "core/base/text.hpp"
 #include "barycert/oracle.hpp"
-#include "locate/judge.hpp"
-#include "locate/points.hpp"
+#include "tests/locate/judge.hpp"
+#include "tests/locate/points.hpp"
 
 namespace barycert::testing {
 namespace {

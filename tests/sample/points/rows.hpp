@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "barycert/base/random.hpp"
+#include "core/base/random.hpp"
 #include "barycert/locator.hpp"
 #include "barycert/mesh.hpp"
 #include "barycert/sampler.hpp"

@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "barycert/io.hpp"
-#include "check/meshes.hpp"
-#include "locate/points.hpp"
-#include "sample/points/rows.hpp"
+#include "tests/check/meshes.hpp"
+#include "tests/locate/points.hpp"
+#include "tests/sample/points/rows.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -5,9 +5,9 @@
 #include <limits>
 
 #include "barycert/io.hpp"
-#include "check/meshes.hpp"
-#include "locate/points.hpp"
-#include "sample/points/rows.hpp"
+#include "tests/check/meshes.hpp"
+#include "tests/locate/points.hpp"
+#include "tests/sample/points/rows.hpp"
 
 namespace barycert::testing {
 namespace {

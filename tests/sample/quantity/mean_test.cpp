@@ -1,5 +1,5 @@
 // Means at nodes: the filter's and the integers', against GMP's rationals.
-#include "barycert/sample/quantity/quantities.hpp"
+#include "mesh/sample/quantity/quantities.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,11 +7,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "barycert/sample/quantity/mean_lanes.hpp"
-#include "check/meshes.hpp"
-#include "check/random_complexes.hpp"
-#include "sample/points/rows.hpp"
-#include "sample/quantity/quantities.hpp"
+#include "mesh/sample/quantity/mean_lanes.hpp"
+#include "tests/check/meshes.hpp"
+#include "tests/check/random_complexes.hpp"
+#include "tests/sample/points/rows.hpp"
+#include "tests/sample/quantity/quantities.hpp"
 
 namespace barycert::testing {
 namespace {

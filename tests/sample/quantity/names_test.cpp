@@ -1,8 +1,8 @@
 // Which text names what.
 #include <gtest/gtest.h>
 
-#include "barycert/sample/quantity/quantities.hpp"
-#include "check/meshes.hpp"
+#include "mesh/sample/quantity/quantities.hpp"
+#include "tests/check/meshes.hpp"
 
 namespace barycert::testing {
 namespace {

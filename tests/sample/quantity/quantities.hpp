@@ -9,10 +9,10 @@
 
 #include "barycert/mesh.hpp"
 #include "barycert/oracle.hpp"
-#include "core/field_cases.hpp"
-#include "core/rational.hpp"
-#include "exact/second_path.hpp"
-#include "locate/judge.hpp"
+#include "tests/core/field_cases.hpp"
+#include "tests/core/rational.hpp"
+#include "tests/exact/second_path.hpp"
+#include "tests/locate/judge.hpp"
 
 namespace barycert::testing {
 

@@ -6,12 +6,12 @@
 #include <limits>
 
 #include "barycert/grid.hpp"
-#include "check/meshes.hpp"
-#include "check/random_complexes.hpp"
-#include "locate/points.hpp"
-#include "sample/grid/compare.hpp"
-#include "sample/points/rows.hpp"
-#include "sample/quantity/quantities.hpp"
+#include "tests/check/meshes.hpp"
+#include "tests/check/random_complexes.hpp"
+#include "tests/locate/points.hpp"
+#include "tests/sample/grid/compare.hpp"
+#include "tests/sample/points/rows.hpp"
+#include "tests/sample/quantity/quantities.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -8,11 +8,11 @@
 
 #include "barycert/oracle.hpp"
 #include "barycert/sampler.hpp"
-#include "check/meshes.hpp"
-#include "check/random_complexes.hpp"
-#include "locate/points.hpp"
-#include "sample/points/rows.hpp"
-#include "sample/quantity/quantities.hpp"
+#include "tests/check/meshes.hpp"
+#include "tests/check/random_complexes.hpp"
+#include "tests/locate/points.hpp"
+#include "tests/sample/points/rows.hpp"
+#include "tests/sample/quantity/quantities.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -1,0 +1,20 @@
+/// Figures as pictures.
+#pragma once
+
+#include "draw/picture.hpp"
+#include "barycert/figure.hpp"
+
+namespace barycert::draw {
+
+/// Whether the figure can be drawn.
+Status check(const Figure& figure);
+
+enum class Form : std::uint8_t {
+    image,    ///< what the camera sees
+    vectors,  ///< polygons and lines in its place, where View::is_flat
+};
+
+/// The window with what the camera sees, axes, the colour bar, the title. Precondition: check(figure).
+Result<Picture> laid_out(const Figure& figure, Form form, FigureCounts& counts);
+
+}  // namespace barycert::draw

@@ -1,0 +1,245 @@
+/// The sources and sinks by format.
+#pragma once
+
+#include <algorithm>
+#include <new>
+
+#include "files/input_file.hpp"
+#include "core/base/text.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/io.hpp"
+
+namespace barycert::io {
+
+enum class FileFormat : std::uint8_t { csv, npy, node, vtu };
+
+/// By the suffix, in any case: .csv .npy .node .vtu; "-" is CSV. Returns an Error that lists them for another suffix.
+Result<FileFormat> format_of(const std::string& path);
+
+/// The same for points: .txt .dat .xyz .tsv are CSV, as pipes and devices; first bytes tell a file without a suffix.
+Result<FileFormat> format_of_points(const std::string& path);
+
+using base::whole_number;
+
+[[noreturn]] inline void refuse_line(std::string file, std::size_t line, std::string what, std::string expected = {},
+                                     std::string found = {}, std::string remedy = {}) {
+    throw Exception({std::move(what), std::move(file), line, std::move(expected), std::move(found), std::move(remedy)});
+}
+[[noreturn]] inline void refuse_file(std::string file, std::string what, std::string expected = {},
+                                     std::string found = {}, std::string remedy = {}) {
+    refuse_line(std::move(file), 0, std::move(what), std::move(expected), std::move(found), std::move(remedy));
+}
+
+/// read() in the environment of exact results. Error: what it throws as an Exception; memory is short.
+template <class Read>
+auto read_guarded(const std::string& path, const Read& read) -> decltype(Result(read())) try {
+    const ExactEnvironment environment;
+    return read();
+} catch (const Exception& problem) {
+    return problem.error();
+} catch (const std::bad_alloc&) {
+    return base::too_little_memory(path);
+}
+
+/// What f() throws as an Exception, as a Status.
+template <class F>
+Status status_of(const F& f) try {
+    f();
+    return Done{};
+} catch (const Exception& problem) {
+    return problem.error();
+}
+
+/// The fields of a line, parted by blanks or a separator with blanks around it; empty where it has no neighbour.
+std::vector<std::string_view> cut_fields(std::string_view line, std::string_view blanks, std::string_view separators);
+
+/// The line of a text in which `at` lies, from 1.
+inline std::size_t line_of(std::string_view text, const char* at) {
+    return static_cast<std::size_t>(std::count(text.data(), at, '\n')) + 1;
+}
+
+std::string lower(std::string_view text);
+
+/// Whether there is something of that name, as far as one may see.
+bool exists(const std::string& path);
+
+/// Whether it is the standard input, a pipe or a device.
+bool is_read_once(const std::string& path);
+
+/// The path without .gz at its end: readers unpack such files, and no writer makes one.
+inline std::string_view without_gz(std::string_view path) {
+    return path.ends_with(".gz") ? path.substr(0, path.size() - 3) : path;
+}
+
+/// The path, or with .gz at its end where there is only such a file.
+inline std::string plain_or_packed(const std::string& path) {
+    return !exists(path) && exists(path + ".gz") ? path + ".gz" : path;
+}
+
+/// True if the path, but for .gz, ends so, or in one of these, in any case. Suffixes are in lower case.
+inline bool has_suffix(std::string_view path, std::string_view suffix) {
+    return lower(without_gz(path)).ends_with(suffix);
+}
+inline bool has_one_of(std::string_view path, std::initializer_list<std::string_view> suffixes) {
+    return std::ranges::any_of(suffixes, [&](std::string_view one) { return has_suffix(path, one); });
+}
+
+inline std::string suffix_of(const std::string& path) {
+    const std::size_t dot = path.find_last_of("./");
+    return dot == std::string::npos || path[dot] == '/' ? "" : path.substr(dot);
+}
+inline std::string stem_of(const std::string& path) {
+    return path.substr(0, path.size() - suffix_of(path).size());
+}
+Error unknown_suffix(const std::string& path, std::string what, std::string expected, std::string remedy);
+
+inline bool is_vtk_file(std::string_view path) {
+    return has_one_of(path, {".vtu", ".vtk", ".vtp", ".pvtu", ".pvtp", ".vtm", ".vtpd", ".vtpc", ".pvd", ".series",
+                             ".vti", ".vtr", ".vts"});
+}
+
+// As open_points and open_table. Errors are thrown as Exceptions.
+using Source = std::unique_ptr<PointSource>;
+Source open_csv_source(const std::string& path, int dimension, const PointOptions& options);
+Source open_npy_source(const std::string& path, int dimension, const PointOptions& options);
+Source open_node_source(const std::string& path, int dimension, const PointOptions& options);
+
+std::unique_ptr<TableSink> open_csv_sink(const std::string& path, const TableFormat& format);
+std::unique_ptr<TableSink> open_npy_sink(const std::string& path, const TableFormat& format);
+
+/// Refuses rows whose spans and columns do not fit together and the format, and the feature degenerate.
+Status check_rows(const TableView& rows, const TableFormat& format, const std::string& path);
+
+/// Of a file of triangles that are not in the plane z = 0: what the mesh in the plane, of their x and y, has not.
+struct InSpace {
+    std::vector<double> points;       ///< 3 coordinates a node; empty: it is a mesh in the plane
+    std::vector<Mesh::Index> facets;  ///< as of Surface
+};
+/// By the end of the path: .stl .ply .off .obj .poly .smesh .vtp.
+bool is_surface_file(const std::string& path);
+Result<Mesh> read_mesh_in_space(const std::string& path, const ReadOptions& options, InSpace* space);
+Result<Mesh> read_vtk_in_space(const std::string& path, const ReadOptions& options, InSpace* space);
+Result<Mesh> read_gmsh_in_space(const std::string& path, const GmshReadOptions& options, InSpace* space);
+
+/// The number of the step that is chosen. Error: there is none such.
+Result<std::size_t> chosen_step(const std::vector<SeriesStep>& steps, const StepChoice& choice,
+                                const std::string& path);
+
+Error no_series(const std::string& path);
+
+enum class MeshFormat : std::uint8_t {
+    tetgen,  ///< and Triangle: several files of one stem
+    vtk,
+    gmsh,
+    medit,
+    by_meshio,  ///< converted: io/converted
+};
+
+/// Of a mesh that is to be read: by its first bytes, else the end of its name. Error: none, or one of another format.
+Result<MeshFormat> mesh_format(const std::string& path);
+
+std::string meshio_format(const std::string& path);
+
+/// Of a mesh that is to be written: by the end of its name. Error: it is another one.
+Result<MeshFormat> mesh_output_format(const std::string& path);
+
+/// Tells that so many cells of the mesh are taken by their corners, if there are such.
+void note_by_corners(std::size_t cells, const std::string& path, Mesh& mesh);
+
+/// As mesh::cut_into_simplices(), and notes it; nothing without shapes. Throws: a polyhedron that is not closed.
+void cut_into_simplices(Mesh& mesh, const std::string& path);
+
+/// Adds to `notes`, once, which of these names are lost in a .node or .ele file: it has attribute0, attribute1, ...
+void note_lost_names(const std::vector<std::string>& columns, const char* file, Notes& notes);
+
+struct OtherFormat {
+    std::string_view suffixes;     ///< with their dots, each between blanks; lower case
+    const char* what;              ///< "a mesh of Medit"
+    std::string_view remedy;       ///< how to get at the mesh, with {words} that the path fills
+    const char* meshio = nullptr;  ///< its name there, if it is read by way of meshio: io/converted
+};
+
+/// By the end of the path; nullptr if it is none of these.
+const OtherFormat* other_format_by_suffix(std::string_view path);
+
+/// By its first bytes; nullptr if they could be anything. `strict`: only what cannot be taken for another file.
+const OtherFormat* other_format_by_content(std::string_view head, std::string_view path, bool strict);
+
+std::string_view first_word(std::string_view text, char comment);
+
+/// Compressed, or a .npy file, by its first bytes; else nullptr. No text begins so.
+const OtherFormat* packed_format(std::string_view head);
+
+/// That the file is not read, and what to do.
+Error other_format_error(const OtherFormat& format, const std::string& path);
+
+/// The command that makes one grid of the pieces of a file, in backquotes.
+std::string one_grid_command(const std::string& path);
+
+/// How to cut the cells of a file of VTK into simplices.
+std::string to_simplices(const std::string& path);
+
+/// Whether all points lie in that plane; what to do where it is not z = 0. `path`: if it holds linear triangles.
+bool in_plane(std::span<const double> points, double z = 0);
+std::string plane_remedy(std::span<const double> points, const std::string& path);
+
+/// The command that writes a file of Gmsh anew, in version 4.1; in backquotes.
+std::string gmsh_command(const std::string& path);
+
+inline constexpr const char* formats_read =
+    "a file of Gmsh (.msh), Medit (.mesh .meshb), VTK (.vtu .vtk .vtp .vti .vtr .vts .pvtu .vtm .pvd .vtu.series "
+    ".vtp.series), TetGen or Triangle (.node .ele), or one that meshio reads";
+
+/// Reads a mesh by way of meshio, whose name of the format is `format`: nodes and cells in its order, which is told
+/// with its version and what it printed. Error: run_meshio(); meshio cannot read the file; read_vtk(); what comes back
+/// differs from what meshio counted.
+Result<Mesh> read_converted(const std::string& path, const std::string& format, InSpace* space);
+
+/// By the first bytes of a file, behind a byte-order mark.
+bool is_medit(std::string_view head);
+
+/// Reads .mesh and .meshb of version 1 to 4.
+///
+/// - Tetrahedra make a mesh of dimension 3, and its Triangles are the faces, with their references as markers. Where
+///   there are no cells of dimension 3, triangles make one of dimension 2; then z is 0, if there is one. If all are of
+///   order 2 (TetrahedraP2, TrianglesP2), their mid-edge nodes are told by the points.
+/// - Hexahedra, Prisms, Pyramids, Quadrilaterals, and cells of several sections or of a higher order are taken by their
+///   corners and cut into simplices; cells count on from section to section.
+/// - References of nodes are point markers, those of cells the cell field "medit:ref"; absent where all are 0.
+/// - SolAt... are fields, as in read_medit_fields.
+/// - What else there is is left out, with a Note.
+///
+/// Error: what the format does not have; a coordinate not finite; an unknown node; no cells; polygons off the plane.
+Result<Mesh> read_medit(const std::string& path, const ReadOptions& options, InSpace* space = nullptr);
+
+/// Notes and fields of .sol and .solb files, solution0, solution1, ..., for a mesh of that dimension, in an empty one.
+Result<Mesh> read_medit_fields(const std::string& path, int dimension);
+
+/// The path and, of XDMF, the file of numbers that lies beside it.
+std::vector<std::string> converted_files(const std::string& path);
+
+/// Points that are in memory, with what their file says of each.
+struct PointTable : PointData {
+    std::vector<std::string> unread;  ///< columns that nobody asked for, by name
+    bool of_nodes = false;            ///< of a .node file
+};
+
+/// As open_points chooses among columns: the coordinates x, y[, z]; NAME, or NAME.0, NAME.1, ... of each field; labels.
+Source points_of_table(PointTable table, const std::string& file, int dimension, const PointOptions& options);
+
+/// Points and point arrays: integers of one component and texts as labels. Without `arrays` those of XML are unread.
+Result<PointTable> read_vtk_table(const std::string& path, bool arrays,
+                                  NonfinitePoints nonfinite = NonfinitePoints::error);
+
+/// One field from a file of its own: any number of rows, all of as many components.
+///
+/// Text: a row a line, numbers between blanks, tabs, commas or semicolons, rounded to nearest; nan and inf are taken as
+/// they are. Blank lines, and what follows a #, are passed over. With `column`, CSV, whose first line settles the
+/// separator as in files of points: the column of that name or number (from 1), or NAME.0, NAME.1, ... NPY (by the
+/// suffix): an array of shape (rows,) or (rows, components) of floats or integers, of either byte order and either
+/// order of axes; with `column` a field of a structured array, or the number of a column from 1. Errors: a word that is
+/// no number; rows of different lengths; an integer that is no double; no such column or array.
+Result<Field> read_field_file(const std::string& name, const std::string& path, const std::string& column,
+                              Notes& notes);
+
+}  // namespace barycert::io

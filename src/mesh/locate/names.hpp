@@ -1,0 +1,10 @@
+/// The cells in the order of space, by their names in the room index.
+#pragma once
+
+#include "mesh/index/cell_index.hpp"
+
+namespace barycert::locate {
+
+using namespace index;
+
+}  // namespace barycert::locate
