@@ -1,39 +1,29 @@
 # Joined sources: a compiler run takes several sources of a folder at once, for most of the time of a run goes into the
 # headers that they share. -DBARYCERT_UNITY=OFF compiles each alone; `./run lint` reads each alone in any case.
-# ALL joins the sources of every folder, and more at once, for builds whose speed does not matter.
 if(PROJECT_IS_TOP_LEVEL)
-  set(BARYCERT_UNITY ON CACHE STRING "Compile several sources of a folder in one compiler run: ON, OFF, ALL")
-  set_property(CACHE BARYCERT_UNITY PROPERTY STRINGS ON OFF ALL)
+  set(BARYCERT_UNITY ON CACHE STRING "Compile several sources of a folder in one compiler run: ON, OFF")
 endif()
 
-# barycert_join(TARGET [FOLDERS REGEX]): joins the sources of the target in its folders, or in those that match, by up to
-# eight. Sources with options of their own stay alone: the options would be lost. Call it from the folder of the target.
+# barycert_join(TARGET): joins the sources of the target in each folder, by up to eight. Those with options of their own stay
+# alone, for the options would be lost; those that Highway compiles once for each processor, which include themselves; and
+# those with SKIP_UNITY_BUILD_INCLUSION. Call it from the folder of the target.
 function(barycert_join target)
   if(NOT BARYCERT_UNITY)
     return()
   endif()
-  cmake_parse_arguments(ARG "" "FOLDERS" "" ${ARGN})
   set(at_once 8)
-  if(BARYCERT_UNITY STREQUAL "ALL")
-    set(at_once 32)
-    unset(ARG_FOLDERS)
-  endif()
   get_target_property(sources ${target} SOURCES)
   foreach(source IN LISTS sources)
     get_filename_component(path ${source} ABSOLUTE)
-    get_filename_component(folder ${path} DIRECTORY)
-    file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${folder})
-    get_source_file_property(options ${source} COMPILE_OPTIONS)
-    get_source_file_property(definitions ${source} COMPILE_DEFINITIONS)
-    if(options OR definitions OR (ARG_FOLDERS AND NOT folder MATCHES "${ARG_FOLDERS}"))
+    if(NOT EXISTS ${path})
       continue()
     endif()
-    if(BARYCERT_UNITY STREQUAL "ALL" AND EXISTS ${path})
-      # Highway has some include themselves; and sources of these folders have names of their own that others there have, too.
-      file(STRINGS ${path} lanes REGEX "core/foreach_target.hpp")
-      if(lanes OR folder MATCHES "barycert/(check|index|surface)$")
-        continue()
-      endif()
+    get_filename_component(folder ${path} DIRECTORY)
+    file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${folder})
+    file(STRINGS ${path} lanes REGEX "core/foreach_target.hpp")
+    # Sources of these folders have names of their own that others there have, too.
+    if(lanes OR folder MATCHES "mesh/(check|index|surface)$")
+      continue()
     endif()
     string(MAKE_C_IDENTIFIER ${folder} group)
     math(EXPR count_${group} "0${count_${group}} + 1")
@@ -47,35 +37,4 @@ endfunction()
 # takes half as long again to compile. Not -O0, for exact judges of tests take their time.
 function(barycert_cold target)
   target_compile_options(${target} PRIVATE $<$<NOT:$<CONFIG:Debug>>:-O1>)
-endfunction()
-
-# barycert_objects(NAME TARGET REGEX [BUT REGEX]): the sources of the target that match become an object library NAME,
-# compiled as the target is and part of it. An executable that links NAME needs no library of this project as a whole. Call
-# it from the folder of the target.
-function(barycert_objects name target regex)
-  cmake_parse_arguments(ARG "" "BUT" "" ${ARGN})
-  get_target_property(all ${target} SOURCES)
-  set(sources ${all})
-  list(FILTER sources INCLUDE REGEX "${regex}")
-  if(ARG_BUT)
-    list(FILTER sources EXCLUDE REGEX "${ARG_BUT}")
-  endif()
-  set(others ${all})
-  list(REMOVE_ITEM others ${sources})
-  add_library(${name} OBJECT ${sources})
-  set_target_properties(${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
-  target_compile_features(${name} PRIVATE cxx_std_20)
-  target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR}/src)
-  get_target_property(folders ${target} INCLUDE_DIRECTORIES)
-  if(folders)
-    target_include_directories(${name} SYSTEM PRIVATE ${folders})
-  endif()
-  get_target_property(libraries ${target} LINK_LIBRARIES)
-  list(REMOVE_ITEM libraries barycert barycert::barycert barycert::audit)
-  target_link_libraries(${name} PUBLIC ${libraries})
-  get_target_property(definitions ${target} COMPILE_DEFINITIONS)
-  if(definitions)
-    target_compile_definitions(${name} PRIVATE ${definitions})
-  endif()
-  set_target_properties(${target} PROPERTIES SOURCES "${others};$<TARGET_OBJECTS:${name}>")
 endfunction()

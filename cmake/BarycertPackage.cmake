@@ -63,12 +63,16 @@ results of other tools, and audits floating-point kernels for barycentric
 weights against exact arithmetic."
     SUGGESTS barycert-tetgen python3-meshio PARTS bin/barycert)
 endif()
+get_property(barycert_libraries GLOBAL PROPERTY barycert_libraries)
+foreach(library ${barycert_libraries})
+  list(APPEND archives $<PATH:RELATIVE_PATH,$<TARGET_FILE:barycert_${library}>,${PROJECT_BINARY_DIR}>)
+endforeach()
 barycert_deb(dev libbarycert-dev libdevel "exact interpolation over meshes, C++ library"
   "Static libraries, headers, and what CMake and pkg-config need to find them:
 barycert::barycert with exact predicates, weights, sampling and checks of
 meshes, and barycert::audit with audits of kernels and the oracle."
   DEPENDS libhwy-dev libtbb-dev libfmt-dev libpng-dev libcairo2-dev libfreetype-dev zlib1g-dev libexpat1-dev libdeflate-dev liblzma-dev liblz4-dev libgmp-dev libmpfr-dev
-  PARTS src/libbarycert.a src/libbarycert_audit.a)
+  PARTS ${archives})
 if(TARGET barycert_vtk)
   barycert_deb(vtk libbarycert-vtk-dev libdevel "exact cell locator and probe for VTK"
     "vtkBarycertLocator, a cell locator whose owners are exact, and

@@ -1,6 +1,5 @@
-# barycert.pc and barycert-audit.pc, for builds that do not use CMake. What a static library calls, whoever links it must
-# link, too; of a shared one that is nobody's business.
-get_target_property(barycert_type barycert TYPE)
+# barycert-NAME.pc of each library and barycert.pc, for builds that do not use CMake. What a static library calls, whoever
+# links it must link, too; of a shared one that is nobody's business.
 
 # barycert_pkg_config(NAME DESCRIPTION LIBRARIES REQUIRES PRIVATE_REQUIRES PRIVATE_LIBRARIES)
 function(barycert_pkg_config name description libraries requires private_requires private_libraries)
@@ -9,7 +8,7 @@ function(barycert_pkg_config name description libraries requires private_require
   string(REGEX REPLACE "/$" "" up ${up})
   set(text "prefix=\${pcfiledir}/${up}\nlibdir=\${prefix}/${CMAKE_INSTALL_LIBDIR}\nincludedir=\${prefix}/${CMAKE_INSTALL_INCLUDEDIR}\n\n")
   string(APPEND text "Name: ${name}\nDescription: ${description}\nVersion: ${PROJECT_VERSION}\nCflags: -I\${includedir}\n")
-  if(barycert_type STREQUAL "SHARED_LIBRARY")
+  if(BUILD_SHARED_LIBS)
     string(APPEND text "Requires: ${requires}\nRequires.private: ${private_requires}\nLibs: -L\${libdir} ${libraries}\n")
     string(APPEND text "Libs.private: ${private_libraries}\n")
   else()
@@ -20,11 +19,17 @@ function(barycert_pkg_config name description libraries requires private_require
   install(FILES ${PROJECT_BINARY_DIR}/${name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT dev)
 endfunction()
 
-set(barycert_dl ${CMAKE_DL_LIBS})
-list(TRANSFORM barycert_dl PREPEND -l)
-barycert_pkg_config(barycert "${PROJECT_DESCRIPTION}" -lbarycert "" "libhwy tbb fmt cairo freetype2 libpng zlib expat libdeflate liblzma liblz4"
-  "-pthread ${barycert_dl}")
-if(TARGET barycert_audit)
-  barycert_pkg_config(barycert-audit "Audits of kernels for barycentric weights, and the oracle" -lbarycert_audit barycert
-    "tbb fmt mpfr gmp" "")
-endif()
+foreach(library ${barycert_libraries})
+  get_property(needs GLOBAL PROPERTY barycert_needs_${library})
+  list(TRANSFORM needs PREPEND barycert-)
+  get_property(modules GLOBAL PROPERTY barycert_modules_${library})
+  get_property(about GLOBAL PROPERTY barycert_about_${library})
+  get_property(others GLOBAL PROPERTY barycert_others_${library})
+  foreach(words needs modules others)
+    list(JOIN ${words} " " ${words})
+  endforeach()
+  string(REPLACE "_" "-" name barycert-${library})
+  string(REPLACE "_" "-" needs "${needs}")
+  barycert_pkg_config(${name} "barycert: ${about}" -lbarycert_${library} "${needs}" "${modules}" "${others}")
+endforeach()
+barycert_pkg_config(barycert "${PROJECT_DESCRIPTION}" "" "barycert-core barycert-mesh barycert-io" "" "")

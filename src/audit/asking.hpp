@@ -3,6 +3,7 @@
 #pragma once
 
 #include "barycert/audit.hpp"
+#include "core/base/nearest_name.hpp"
 #include "core/base/text.hpp"
 #include "core/base/workers.hpp"
 #include "audit/kernels/host.hpp"
@@ -15,6 +16,13 @@ using kernels::Statement;
 
 constexpr bool is_inside(Region r) {
     return r == Region::interior || r == Region::boundary;
+}
+
+/// That `word` is none of these names.
+inline Error unknown_name(std::string what, std::string expected, const std::string& word, const std::vector<std::string>& names,
+              std::string_view lists = {}) {
+    return file_error({}, std::move(what), std::move(expected), '"' + word + '"',
+                      base::did_you_mean(word, names, lists));
 }
 
 /// Float32 and the like: names with a second dot.

@@ -69,9 +69,9 @@ Status check_discs(const FigurePoints& p, std::size_t d) {
 }
 
 Status check_grid(const FigureGrid& g) {
-    if (g.width < 1 || g.height < 1 || std::max(g.width, g.height) > io::longest_png_side)
+    if (g.width < 1 || g.height < 1 || std::max(g.width, g.height) > png::longest_png_side)
         return refusal("a grid of that size cannot be a picture",
-                       fmt::format("1 to {} values a side", io::longest_png_side),
+                       fmt::format("1 to {} values a side", png::longest_png_side),
                        fmt::format("{} by {}", g.width, g.height));
     if (g.values.size() != g.width * g.height || (!g.valid.empty() && g.valid.size() != g.values.size()))
         return refusal("the arrays of the grid do not fit together", fmt::format("{} by {} values", g.width, g.height),

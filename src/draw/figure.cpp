@@ -3,7 +3,7 @@
 #include "draw/figure_values.hpp"
 #include "draw/files.hpp"
 #include "draw/layout.hpp"
-#include "io/formats.hpp"
+#include "files/suffix.hpp"
 #include "draw/png/png_file.hpp"
 
 namespace barycert {
@@ -15,12 +15,12 @@ Status write_rows(const std::string& path, const Figure& figure, FigureCounts& c
     const Result<ColourScale> scale = scale_of(figure, counts);
     if (!scale) return scale.error();
     const GridImage image(*figure.grid, *scale);
-    if (std::max(image.width(), image.height()) > io::longest_png_side)
+    if (std::max(image.width(), image.height()) > png::longest_png_side)
         return file_error(path, "a grid of that aspect cannot be a picture",
-                          fmt::format("at most {} pixels a side", io::longest_png_side),
+                          fmt::format("at most {} pixels a side", png::longest_png_side),
                           fmt::format("{} by {}", image.width(), image.height()), "choose spacings that differ less");
     const auto row = [&](std::size_t r, std::uint8_t* pixels) { image.row(r, pixels); };
-    return io::write_png_rows(path, image.width(), image.height(), row);
+    return png::write_png_rows(path, image.width(), image.height(), row);
 }
 
 RasterSize size_of(const Picture& p, double scale) {
@@ -33,7 +33,7 @@ Status write(const std::string& path, Figure figure, FigureCounts& counts) {
         return Error{.what = "pictures have other names", .expected = ".png, .svg or .pdf", .found = path};
     if (Status good = check(figure); !good) return good;
     FigureOptions& o = figure.options;
-    const bool pixels = io::has_suffix(path, ".png");
+    const bool pixels = base::has_suffix(path, ".png");
     if (pixels && figure.grid && !o.bar && o.axes == Axes::none && o.title.empty() && o.resolution == 1)
         return write_rows(path, figure, counts);
     if (!pixels) o.resolution = 300 / 96.0, o.samples = std::min(o.samples, 2);  // of more pixels
@@ -71,7 +71,7 @@ Result<Image> draw_figure(const Figure& figure, FigureCounts* counts) {
 }
 
 bool is_figure_name(std::string_view path) {
-    return io::has_one_of(path, {".png", ".svg", ".pdf"});
+    return base::has_one_of(path, {".png", ".svg", ".pdf"});
 }
 
 Status write_figure(const std::string& path, const Figure& figure, FigureCounts* counts) {

@@ -153,7 +153,7 @@ std::string png_text(const Image& image) {
     for (std::size_t at = image.data.size(); at >= row; at -= row)
         pixels.insert(pixels.end(), image.data.begin() + static_cast<std::ptrdiff_t>(at - row),
                       image.data.begin() + static_cast<std::ptrdiff_t>(at));
-    return io::png_bytes(static_cast<std::size_t>(image.width), pixels).value();
+    return png::png_bytes(static_cast<std::size_t>(image.width), pixels).value();
 }
 
 std::string base64(std::string_view bytes) {

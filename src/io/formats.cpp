@@ -34,12 +34,6 @@ std::vector<std::string_view> cut_fields(std::string_view line, std::string_view
     return fields;
 }
 
-std::string lower(std::string_view text) {
-    std::string out(text);
-    for (char& c : out) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return out;
-}
-
 bool exists(const std::string& path) {
     std::error_code ignored;
     return fs::exists(path, ignored);

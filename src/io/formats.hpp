@@ -5,6 +5,7 @@
 #include <new>
 
 #include "files/input_file.hpp"
+#include "files/suffix.hpp"
 #include "core/base/text.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/io.hpp"
@@ -19,7 +20,13 @@ Result<FileFormat> format_of(const std::string& path);
 /// The same for points: .txt .dat .xyz .tsv are CSV, as pipes and devices; first bytes tell a file without a suffix.
 Result<FileFormat> format_of_points(const std::string& path);
 
+using base::has_one_of;
+using base::has_suffix;
+using base::lower;
+using base::stem_of;
+using base::suffix_of;
 using base::whole_number;
+using base::without_gz;
 
 [[noreturn]] inline void refuse_line(std::string file, std::size_t line, std::string what, std::string expected = {},
                                      std::string found = {}, std::string remedy = {}) {
@@ -58,39 +65,17 @@ inline std::size_t line_of(std::string_view text, const char* at) {
     return static_cast<std::size_t>(std::count(text.data(), at, '\n')) + 1;
 }
 
-std::string lower(std::string_view text);
-
 /// Whether there is something of that name, as far as one may see.
 bool exists(const std::string& path);
 
 /// Whether it is the standard input, a pipe or a device.
 bool is_read_once(const std::string& path);
 
-/// The path without .gz at its end: readers unpack such files, and no writer makes one.
-inline std::string_view without_gz(std::string_view path) {
-    return path.ends_with(".gz") ? path.substr(0, path.size() - 3) : path;
-}
-
 /// The path, or with .gz at its end where there is only such a file.
 inline std::string plain_or_packed(const std::string& path) {
     return !exists(path) && exists(path + ".gz") ? path + ".gz" : path;
 }
 
-/// True if the path, but for .gz, ends so, or in one of these, in any case. Suffixes are in lower case.
-inline bool has_suffix(std::string_view path, std::string_view suffix) {
-    return lower(without_gz(path)).ends_with(suffix);
-}
-inline bool has_one_of(std::string_view path, std::initializer_list<std::string_view> suffixes) {
-    return std::ranges::any_of(suffixes, [&](std::string_view one) { return has_suffix(path, one); });
-}
-
-inline std::string suffix_of(const std::string& path) {
-    const std::size_t dot = path.find_last_of("./");
-    return dot == std::string::npos || path[dot] == '/' ? "" : path.substr(dot);
-}
-inline std::string stem_of(const std::string& path) {
-    return path.substr(0, path.size() - suffix_of(path).size());
-}
 Error unknown_suffix(const std::string& path, std::string what, std::string expected, std::string remedy);
 
 inline bool is_vtk_file(std::string_view path) {

@@ -1,11 +1,11 @@
 // Second-order cells whose sides are not straight.
 
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "mesh/threads/arena.hpp"
+#include "core/base/text.hpp"
 #include "core/isoparametric/shape_functions.hpp"
 #include "barycert/environment.hpp"
 #include "mesh/mid_edges.hpp"
@@ -173,14 +173,18 @@ CurvedCells measure(const Mesh& mesh, const mesh::Written& written, bool exact, 
 }
 
 std::string counted_cells(std::uint64_t count) {
-    return fmt::format("{} cell{}", count, count == 1 ? "" : "s");
+    return base::counted(count, "cell");
+}
+
+std::string part_of_edge(double deviation) {
+    return base::rounded_text(deviation, std::chars_format::general, 2) + " of the edge off its middle";
 }
 
 /// Of curved cells, without what became of them.
 std::string deviations(const CurvedCells& c) {
     const std::string which = counted_cells(c.cells) + (c.cells == 1 ? " is curved" : " are curved");
     if (std::isinf(c.max_deviation)) return which + ": mid-edge nodes lie off edges of length 0";
-    return fmt::format("{}: mid-edge nodes lie up to {:.2g} of the edge off its middle", which, c.max_deviation);
+    return which + ": mid-edge nodes lie up to " + part_of_edge(c.max_deviation);
 }
 
 }  // namespace
@@ -214,13 +218,15 @@ std::string message(const CurvedCells& curved) {
     std::string text;
     if (curved.cells != 0) text = deviations(curved) + std::string(curved.mapped ? kept : straight);
     if (curved.rounded_cells != 0)
-        text += fmt::format("{}{}: mid-edge nodes lie up to {:.2g} of the edge off its middle, by rounding{}",
-                            text.empty() ? "" : "; ", counted_cells(curved.rounded_cells), curved.max_rounded,
-                            curved.mapped && curved.rounded_too ? kept : straight);
+        text.append(text.empty() ? "" : "; ")
+            .append(counted_cells(curved.rounded_cells) + ": mid-edge nodes lie up to ")
+            .append(part_of_edge(curved.max_rounded) + ", by rounding")
+            .append(curved.mapped && curved.rounded_too ? kept : straight);
     if (curved.by_corners != 0)
-        text += fmt::format("{}{} of a higher order {}: nodes and values amid edges and sides are left out",
-                            text.empty() ? "" : "; ", counted_cells(curved.by_corners),
-                            curved.by_corners == 1 ? "is taken by its corners" : "are taken by their corners");
+        text.append(text.empty() ? "" : "; ")
+            .append(counted_cells(curved.by_corners) + " of a higher order ")
+            .append(curved.by_corners == 1 ? "is taken by its corners" : "are taken by their corners")
+            .append(": nodes and values amid edges and sides are left out");
     return text;
 }
 

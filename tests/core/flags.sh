@@ -31,17 +31,17 @@ if command -v g++ >/dev/null; then
     for flags in $alone $gnu_alone; do
         flags=$(echo "$flags" | tr ';' ' ')
         # shellcheck disable=SC2086
-        g++ -std=c++20 -O2 $flags -I"$source/src" -fsyntax-only "$build/with_header.cpp" 2>&1 |
+        g++ -std=c++20 -O2 $flags $(core_includes "$source") -fsyntax-only "$build/with_header.cpp" 2>&1 |
             grep -q 'barycert is not correct under -ffast-math or a part of it' || fault "g++ does not refuse $flags"
         # shellcheck disable=SC2086
-        g++ -std=c++20 -O2 $flags $3 -I"$source/src" -fsyntax-only "$build/with_header.cpp" ||
+        g++ -std=c++20 -O2 $flags $3 $(core_includes "$source") -fsyntax-only "$build/with_header.cpp" ||
             fault "g++: the build's flags do not take back $flags"
     done
 fi
 
 # Clang writes into its intermediate code what it may do: "fadd reassoc nsz arcp afn double" for "fadd double".
 operations() {
-    clang++ -std=c++20 -O1 "$@" -I"$source/src" -S -emit-llvm -o - 2>&1 | grep -E ' (fadd|fdiv|fmul) |error:'
+    clang++ -std=c++20 -O1 "$@" $(core_includes "$source") -S -emit-llvm -o - 2>&1 | grep -E ' (fadd|fdiv|fmul) |error:'
 }
 if command -v clang++ >/dev/null; then
     for flags in $alone $clang_alone; do
@@ -74,12 +74,12 @@ answers() {
         rm -f "$object"
         case $file in *same_bytes.cpp) set -- $own ;; esac
         $launcher "$compiler" -std=c++20 -O2 -pthread -Wno-psabi -w -DHWY_COMPILE_ONLY_STATIC -march=haswell -maes "$@" \
-            -DBARYCERT_VERSION='"x"' -I"$source/src" -I"$source/tests" -c "$file" -o "$object" &
+            -DBARYCERT_VERSION='"x"' $(core_includes "$source") -c "$file" -o "$object" &
         objects="$objects $object"
     done
     wait
     # shellcheck disable=SC2086
-    "$compiler" -pthread $objects -lhwy -lfmt -o "$build/$name" || { fault "$name does not build"; return; }
+    "$compiler" -pthread $objects -lhwy -o "$build/$name" || { fault "$name does not build"; return; }
     echo "$name:"
     "$build/$name" || fault "$name: answers differ from the pinned number"
 }

@@ -23,8 +23,8 @@ status=0
 # Every header that includes Highway, by way of others too, in sources that have it: what failed were these headers. By
 # syntax alone. A source that brings no header which those before it have not is left out.
 sapphire() {
-    (cd "$source/src" && grep -oE 'include "(hwy/[a-z_/]+\.h|barycert/[a-z_/]+-inl\.hpp|core/foreach_target\.hpp)' \
-        -r barycert --include '*.cpp') | sort | awk -F: '
+    (cd "$source/src" && grep -oE 'include "(hwy/[a-z_/]+\.h|[a-z_/]+-inl\.hpp|core/foreach_target\.hpp)' \
+        -r core mesh draw --include '*.cpp') | sort | awk -F: '
         { count[$1]++; of[$1, count[$1]] = $2; headers[$2] = 1 }
         END {
             for (;;) {
@@ -46,7 +46,7 @@ sources=$(sapphire)
 [ "$(echo "$sources" | wc -l)" -ge 5 ] || { echo "FAULT: only these sources include Highway: $sources"; status=1; }
 for file in $sources; do
     # shellcheck disable=SC2086
-    g++ $flags -march=sapphirerapids -I"$source/src" -fsyntax-only "$source/src/$file" ||
+    g++ $flags -march=sapphirerapids $(core_includes "$source") -fsyntax-only "$source/src/$file" ||
         { echo "FAULT: $file does not compile with -march=sapphirerapids"; status=1; }
 done
 
@@ -58,13 +58,13 @@ for processor in "$@"; do
         object=$build/$processor-$(basename "$file" .cpp).o
         rm -f "$object"
         # shellcheck disable=SC2086
-        $launcher g++ $flags $targets -O1 -march="$processor" -DBARYCERT_VERSION='"x"' -I"$source/src" -I"$source/tests" \
+        $launcher g++ $flags $targets -O1 -march="$processor" -DBARYCERT_VERSION='"x"' $(core_includes "$source") \
             -c "$file" -o "$object" &
         objects="$objects $object"
     done
     wait
     # shellcheck disable=SC2086
-    g++ -pthread $objects -lhwy -lfmt -o "$build/same_bytes-$processor" || { status=1; continue; }
+    g++ -pthread $objects -lhwy -o "$build/same_bytes-$processor" || { status=1; continue; }
     case $processor in
         x86-64-v4) needs=avx512dq ;;
         x86-64-v3) needs=avx2 ;;

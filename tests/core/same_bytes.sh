@@ -30,12 +30,12 @@ for compiler in g++ clang++; do
         for file in $(core_sources "$source" "$build"); do
             object=$build/$compiler$level-$(basename "$file" .cpp).o
             rm -f "$object"
-            $launcher $compiler $flags "$level" -DBARYCERT_VERSION='"x"' -I"$source/src" -I"$source/tests" -c "$file" \
+            $launcher $compiler $flags "$level" -DBARYCERT_VERSION='"x"' $(core_includes "$source") -c "$file" \
                 -o "$object" &
             objects="$objects $object"
         done
         wait
-        $compiler -pthread $objects -lhwy -lfmt -o "$build/same_bytes$compiler$level" || exit 1
+        $compiler -pthread $objects -lhwy -o "$build/same_bytes$compiler$level" || exit 1
         echo "$compiler $level:"
         "$build/same_bytes$compiler$level" || status=1
         ran=$((ran + 1))

@@ -42,9 +42,11 @@ class Bench:
             if place.is_dir():
                 shutil.rmtree(place)
         scratch.mkdir(parents=True, exist_ok=True)
-        self.pristine = scratch / "pristine" / "barycert" / "core"
+        self.pristine = scratch / "pristine" / "core"
         shutil.copytree(root / "src/core", self.pristine)
         self.cases = scratch / "cases.bin"
+        places = [root, root / "src", *sorted((root / "src").glob("*/include"))]
+        self.includes = [word for place in places for word in ("-I", place)]
 
     def mutants(self):
         mutants, texts = all_mutants(self.pristine)
@@ -63,16 +65,16 @@ class Bench:
                 return known
         else:
             (place / "ahead.hpp").write_text(text + "#include <hwy/highway.h>\n")
-        return run("g++", *FLAGS, *TARGETS.get(target, []), "-I", self.root / "src", "-x", "c++-header", place / "ahead.hpp", "-o",
+        return run("g++", *FLAGS, *TARGETS.get(target, []), *self.includes, "-x", "c++-header", place / "ahead.hpp", "-o",
                    place / "ahead.hpp.gch")
 
     def compile(self, include, source, target, out):
         target = target if source == "lanes.cpp" else "plain"
         return run("g++", *FLAGS, *TARGETS.get(target, []), "-include", self.scratch / f"ahead.{target}/ahead.hpp",
-                   "-I", include, "-I", self.root / "src", "-c", include / "core" / source, "-o", out)
+                   "-I", include, *self.includes, "-c", include / "core" / source, "-o", out)
 
     def link(self, objects, out):
-        return run("g++", self.scratch / "killer.o", *objects, self.build / "src/libbarycert.a", "-lhwy", "-pthread",
+        return run("g++", self.scratch / "killer.o", *objects, self.build / "src/core/libbarycert_core.a", "-lhwy", "-pthread",
                    "-o", out)
 
     def check(self, program):
@@ -95,7 +97,7 @@ class Bench:
                         sys.exit(done.stderr[:4000])
 
         def own(name):
-            return run("g++", *KILLER_FLAGS, "-I", self.root / "src", "-c", HERE / f"{name}.cpp", "-o",
+            return run("g++", *KILLER_FLAGS, *self.includes, "-c", HERE / f"{name}.cpp", "-o",
                        self.scratch / f"{name}.o")
 
         root = self.scratch / "pristine"
@@ -104,7 +106,7 @@ class Bench:
         all_good(own, [(s,) for s in [*own_sources, "killer"]])
         all_good(lambda s, t: self.compile(root, s, t, self.object(s, t)),
                  [(s, "fma") for s in SOURCES] + [("lanes.cpp", "split")])
-        libraries = [self.build / "src/libbarycert_audit.a", self.build / "src/libbarycert.a", *PREPARE_LIBRARIES]
+        libraries = [*(self.build / f"src/{name}/libbarycert_{name}.a" for name in ("audit", "mesh", "files", "core")), *PREPARE_LIBRARIES]
         made = run("g++", *(self.scratch / f"{s}.o" for s in own_sources), *libraries, "-o", self.scratch / "prepare")
         if made.returncode == 0:
             made = run(self.scratch / "prepare", self.cases, self.root / "data")
@@ -131,7 +133,7 @@ class Bench:
             m.status = "stale"
             return
         place = self.scratch / f"m{number}"
-        core = place / "barycert" / "core"
+        core = place / "core"
         core.mkdir(parents=True)
         anew = USERS.get(m.file, [m.file])
         for f in self.pristine.iterdir():

@@ -10,7 +10,7 @@ import json, random, re, shlex, shutil, sys, threading
 
 from bench import run
 from measured import measured
-from room_lists import ROOMS
+from room_lists import ROOMS, folder_of
 from room_mutants import room_mutants
 
 FLAGS = "-O1 -w -D_GLIBCXX_ASSERTIONS".split()
@@ -18,7 +18,7 @@ LANES = "-march=haswell -maes -DHWY_COMPILE_ONLY_STATIC".split()
 LINKER = [*(["-fuse-ld=lld"] if shutil.which("ld.lld") else []), "-Wl,-z,muldefs"]
 LAUNCHER = ["ccache"] if shutil.which("ccache") else []
 INPUTS, SEED = 300, 1  # random bytes, of which targets of the fuzzer make meshes
-INCLUDED = re.compile(r'^#(?:include|define HWY_TARGET_INCLUDE) "(barycert/[^"]+)"', re.MULTILINE)
+INCLUDED = re.compile(r'^#(?:include|define HWY_TARGET_INCLUDE) "([a-z]+/[^"]+)"', re.MULTILINE)
 
 
 def object_name(source):
@@ -28,7 +28,7 @@ def object_name(source):
 class RoomBench:
     def __init__(self, build, scratch, root, name, count, quick):
         self.build, self.scratch, self.root, self.name, self.count, self.quick = build, scratch, root, name, count, quick
-        self.room, self.prefix = ROOMS[name], f"barycert/{name}"
+        self.room, self.prefix = ROOMS[name], folder_of(name)
         shutil.rmtree(scratch / "src", ignore_errors=True)
         shutil.rmtree(scratch / "kept", ignore_errors=True)
         for place in scratch.glob("m[0-9]*"):

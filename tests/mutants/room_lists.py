@@ -103,6 +103,11 @@ class Room:
     left_out: list = field(default_factory=list)  # tests of time, and one of six minutes
 
 
+def folder_of(room):
+    """The folder of a room, below src."""
+    return room if room in ("core", "audit") else f"mesh/{room}"
+
+
 ROOMS = {
     "check": Room("check", 30, CHECK, ["meshes"], left_out=["HardMeshes.TimeOfCellsOneInAnother", "Contacts.OfExtremeCoordinates"],
                   last=["Defects.InPairs*", "Theorem.*", "Candidates.*", "Robustness.SameFromAnyThreads"]),

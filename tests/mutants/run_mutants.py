@@ -7,7 +7,7 @@
 --room core: the mutants of mutant_list.py against killer.cpp. Other rooms (room_lists.py): those of room_mutants.py against
 the tests of the room and targets of the fuzzer, of a build that has them (preset dev; targets test_ROOM and fuzz_replay).
 
---build is a build of barycert whose libraries stand for all that is not mutated (src/libbarycert*.a in it); --root a
+--build is a build of barycert whose libraries stand for all that is not mutated (src/*/libbarycert_*.a in it); --root a
 checkout whose sources are mutated, this one if not given. Listed mutants are all run, generated ones until --minutes
 are over, in an order in which those left out lie evenly; --count of them, as many of each kind, of other rooms than the
 core. --only takes the mutants of one source, --listed those listed; --again goes on with the last run, those of its

@@ -1,6 +1,7 @@
 /// What an audit is made of: meshes, kernels and families, by the words of the user.
 #pragma once
 
+#include "barycert/audit_job.hpp"
 #include "barycert/audit_report.hpp"
 #include "reports.hpp"
 

@@ -21,13 +21,13 @@ void check_job(const CheckJob& job) {
     const auto [member, copy] = copy_of(job);
     if (job.measures == "-")
         refuse("", "job.measures cannot write to stdout", "", "", "name a file: its data are binary");
-    if (!job.measures.empty() && !io::has_suffix(job.measures, ".vtu") && !io::has_suffix(job.measures, ".vtp"))
+    if (!job.measures.empty() && !base::has_suffix(job.measures, ".vtu") && !base::has_suffix(job.measures, ".vtp"))
         refuse(job.measures, "job.measures writes VTU files, and of surfaces VTP files", "a name that ends in .vtu", "",
                "choose another name; job.fix writes other formats");
     if (copy == "-")
         refuse("", member + " cannot write to stdout", "", "",
                "name a file, .vtu .vtk .msh, or a stem of TetGen's files");
-    if (!job.picture.empty() && !io::has_suffix(job.picture, ".png"))
+    if (!job.picture.empty() && !base::has_suffix(job.picture, ".png"))
         refuse(job.picture, "unknown suffix of job.picture", ".png", "", "choose another name");
     std::vector<base::NamedFile> plc, outputs{{"job.measures", job.measures}, {"job.picture", job.picture}};
     if (!copy.empty()) {
@@ -120,7 +120,7 @@ void refuse_options_of_meshes(const CheckJob& job, const char* what) {
     refuse_one(!job.plc.empty(), "job.plc");
     refuse_one(!copy_of(job).path.empty(), copy_of(job).what);
     refuse_one(job.plot, "job.plot");
-    if (!job.measures.empty() && !io::has_suffix(job.measures, ".vtp"))
+    if (!job.measures.empty() && !base::has_suffix(job.measures, ".vtp"))
         refuse(job.measures, "job.measures writes VTP files of surfaces", "a name that ends in .vtp", "",
                "choose another name");
 }
@@ -229,7 +229,7 @@ Result<CheckedMesh> check_files(const CheckJob& job) try {
     }
     if (!job.picture.empty())
         refuse(job.picture, "job.picture is of surfaces", "", "a mesh", "ParaView shows cells: job.measures FILE.vtu");
-    if (io::has_suffix(job.measures, ".vtp"))
+    if (base::has_suffix(job.measures, ".vtp"))
         refuse(job.measures, "job.measures writes VTU files of meshes", "a name that ends in .vtu", "",
                "choose another name");
     const Mesh& mesh = checked.mesh;

@@ -33,7 +33,7 @@ void check_job(const ContourJob& job) {
     if (job.value.has_value() == job.plane.has_value())
         refuse("", "what to cut at", "a value or a plane", job.value ? "both" : "neither");
     const bool picture = is_picture(job);
-    if (!picture && !io::has_one_of(job.output, {".vtp", ".ply", ".off"}))
+    if (!picture && !base::has_one_of(job.output, {".vtp", ".ply", ".off"}))
         jobs::refuse_output(job.output, ".vtp, .ply, .off, .png, .svg or .pdf");
     for (const auto& [member, given] :
          {std::pair("job.colours", !job.colours.empty()), {"job.range", !!job.figure.range}}) {

@@ -66,7 +66,7 @@ Result<Mesh> points_as_mesh(const std::string& path, int dimension, const Error&
 
 /// Whether it has fields of Medit, and no mesh.
 bool is_solution(const std::string& path) {
-    return io::has_one_of(path, {".sol", ".solb"});
+    return base::has_one_of(path, {".sol", ".solb"});
 }
 
 /// The array file.column of a mesh or surface, named as the field; file.of becomes what it is of.
@@ -156,9 +156,9 @@ void check_label(const Mesh& mesh, const Column& label) {
 }  // namespace
 
 bool is_file_of_a_mesh(const std::string& path) {
-    if (io::is_vtk_file(path) || io::has_one_of(path, {".msh", ".mesh", ".meshb", ".node", ".ele"})) return true;
+    if (io::is_vtk_file(path) || base::has_one_of(path, {".msh", ".mesh", ".meshb", ".node", ".ele"})) return true;
     std::error_code ignored;  // what is no regular file is not opened to look at it
-    return !io::has_one_of(path, {".csv", ".txt", ".dat", ".xyz", ".tsv", ".npy"}) &&
+    return !base::has_one_of(path, {".csv", ".txt", ".dat", ".xyz", ".tsv", ".npy"}) &&
            std::filesystem::is_regular_file(path, ignored) && io::mesh_format(path);
 }
 

@@ -124,7 +124,7 @@ void check_files(const MeshJob& job, std::vector<base::NamedFile> more_inputs, s
 
 void check_files(const SamplingJob& job, const std::vector<Step>& steps, std::vector<base::NamedFile> more_inputs,
                  std::vector<base::NamedFile> outputs) {
-    if (!job.weights.empty() && !io::has_suffix(job.weights, ".npz"))
+    if (!job.weights.empty() && !base::has_suffix(job.weights, ".npz"))
         refuse(job.weights, "unknown suffix of job.weights", ".npz", "", "choose another name");
     check_vtk_data(job.vtk_data, job.output);
     std::vector<base::NamedFile> of_steps;
@@ -146,11 +146,11 @@ void check_files(const SamplingJob& job, const std::vector<Step>& steps, std::ve
 
 void check_vtk_data(std::optional<VtkData> data, const std::string& path) {
     if (!data) return;
-    const bool legacy = io::has_suffix(path, ".vtk");
+    const bool legacy = base::has_suffix(path, ".vtk");
     if (legacy && *data != VtkData::raw && *data != VtkData::ascii)
         refuse(path, "job.vtk_data: legacy files of VTK know no compression", "raw or ascii", std::string(name(*data)),
                "name a .vtu file");
-    if (!legacy && !io::has_one_of(path, {".vtu", ".vtp", ".vti"}))
+    if (!legacy && !base::has_one_of(path, {".vtu", ".vtp", ".vti"}))
         refuse(path, "job.vtk_data is for files of VTK", ".vtu, .vtk, .vtp or .vti", "",
                "leave it out, or name such a file");
 }

@@ -185,7 +185,7 @@ viewer::PageScene MeshFigure::page(const FigureOptions& options) const {
 FigureCounts MeshFigure::write(const std::string& path, FigureOptions options) const {
     if (options.bar_title.empty()) options.bar_title = colours_.empty() ? show_.iso_field : colours_;
     FigureCounts counts;
-    if (io::has_suffix(path, ".html")) {
+    if (base::has_suffix(path, ".html")) {
         viewer::write_page(path, page(options), counts).value();
     } else {
         write_figure(path, figure(options), &counts).value();

@@ -176,7 +176,7 @@ void draw_mesh(const RenderJob& job, RenderReport& report) {
         jobs::tell_stage(job, "drawing");
         figure.add_mesh();
         FigureOptions options = job.figure;
-        if (io::has_suffix(job.output, ".html") && options.title.empty())
+        if (base::has_suffix(job.output, ".html") && options.title.empty())
             options.title = std::filesystem::path(job.mesh).filename().string();
         const FigureCounts counts = figure.write(job.output, options);
         report.size = counts.size;
@@ -237,7 +237,7 @@ std::vector<base::NamedFile> inputs_of(const RenderJob& job) {
 
 Result<RenderReport> render_files(const RenderJob& job) try {
     const ExactEnvironment environment;
-    const bool mesh = job.picture == PictureKind::mesh, page = io::has_suffix(job.output, ".html");
+    const bool mesh = job.picture == PictureKind::mesh, page = base::has_suffix(job.output, ".html");
     if (mesh ? !is_figure_name(job.output) && !page : !job.output.ends_with(".png"))
         jobs::refuse_output(job.output, mesh ? ".png, .svg, .pdf or .html" : ".png");
     jobs::check_outputs(job, inputs_of(job), {{"job.output", job.output}});

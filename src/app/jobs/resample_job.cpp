@@ -168,7 +168,7 @@ std::array<double, 3> point_of(const Grid& grid, std::uint64_t i) {
 Sink open_grid_sink(const ResampleJob& job, const std::string& path, const TableFormat& format, const Grid& grid,
                     std::optional<FigureCounts>& picture) {
     const std::vector<std::string> columns = format.columns();
-    const bool png = is_figure_name(path), array = io::has_suffix(path, ".npy");
+    const bool png = is_figure_name(path), array = base::has_suffix(path, ".npy");
     if (!format.carried.empty() && (png || array))
         refuse_label(format.carried.front(), path, "fields",
                      "write .csv, or integers to .vti, or leave the label out of job.fields");
@@ -177,7 +177,7 @@ Sink open_grid_sink(const ResampleJob& job, const std::string& path, const Table
         refuse(path, "no field to write", "", "",
                "add one by job.field_files NAME=FILE; .vti and .csv can be written without fields");
     if (array) return open_array(path, grid, columns.size());
-    if (io::has_suffix(path, ".vti")) return open_vti(path, format, grid);
+    if (base::has_suffix(path, ".vti")) return open_vti(path, format, grid);
     // With the points of the grid, as rows of points from a file have them.
     const auto add_points = [grid, points = std::vector<double>()](TableView& block) mutable {
         const auto d = static_cast<std::size_t>(grid.dimension);
@@ -251,7 +251,7 @@ Grid grid_of(const ResampleJob& a, const Mesh& mesh) {
 }
 
 bool is_rows(const std::string& output) {
-    return output == "-" || io::has_one_of(output, {".csv", ".npy"});
+    return output == "-" || base::has_one_of(output, {".csv", ".npy"});
 }
 
 void check_job(const ResampleJob& job, const std::vector<jobs::Step>& steps) {
@@ -269,7 +269,7 @@ void check_job(const ResampleJob& job, const std::vector<jobs::Step>& steps) {
     if (job.onto.empty()) {
         if (job.figure.range && !is_figure_name(job.output))
             refuse(job.output, "job.range needs a picture", "", "", "use job.output FILE.png, or leave job.range out");
-        if (job.output != "-" && !io::has_one_of(job.output, {".csv", ".npy", ".vti", ".png", ".svg", ".pdf"}))
+        if (job.output != "-" && !base::has_one_of(job.output, {".csv", ".npy", ".vti", ".png", ".svg", ".pdf"}))
             jobs::refuse_output(job.output, ".vti, .npy, .csv, .png, .svg or .pdf for a grid, or - for CSV on stdout");
         return jobs::check_files(job, steps, {}, {{"job.output", job.output}});
     }
@@ -337,7 +337,7 @@ void onto_grid(SampledMesh& mesh, const ResampleJob& job, const std::string& pat
 
 void onto_grid_in_steps(SampledMesh& mesh, const ResampleJob& job) {
     Grid& grid = mesh.report.grid.emplace(grid_of(job, mesh.mesh()));
-    if (io::has_suffix(job.output, ".vti")) grid = as_in_vti(grid);
+    if (base::has_suffix(job.output, ".vti")) grid = as_in_vti(grid);
     mesh.report.from = PointsFrom::grid;
     mesh.for_outputs([&](const std::string& path, bool, bool anew) {
         if (anew && mesh.mesh().is_listed()) {

@@ -49,7 +49,7 @@ void check_job(const SampleJob& job, const std::vector<jobs::Step>& steps) {
         !(job.fields.empty() && job.field_files.empty() && job.series.empty() && job.keep.empty()))
         refuse("", "fields or columns without job.output", "", "",
                "weights depend on no field: leave fields out, or name job.output too");
-    if (!job.output.empty() && job.output != "-" && !io::has_one_of(job.output, {".csv", ".npy", ".vtu"}))
+    if (!job.output.empty() && job.output != "-" && !base::has_one_of(job.output, {".csv", ".npy", ".vtu"}))
         jobs::refuse_output(job.output, ".csv, .npy or .vtu, or - for CSV on stdout");
     std::vector<base::NamedFile> inputs;
     if (!job.map.empty()) inputs = {{"job.map", job.map}};
@@ -108,7 +108,7 @@ std::unique_ptr<PointSource> points_of(const SampleJob& job, int dimension, Nonf
                    fmt::format("{} and {} coordinates, {} points", d, job.line->to.size(), job.line->count));
         return jobs::points_on(*job.line);
     }
-    const bool csv = job.output == "-" || io::has_suffix(job.output, ".csv");
+    const bool csv = job.output == "-" || base::has_suffix(job.output, ".csv");
     const PointOptions options{.columns = job.columns, .keep = job.keep, .nonfinite_points = nonfinite, .typed = !csv};
     return open_points(job.points, dimension, options).value();
 }

@@ -99,7 +99,7 @@ std::vector<Step> matches_of(const FieldFile& series) {
 }
 
 bool names_steps(const std::string& path) {
-    return io::has_one_of(path, {".pvd", ".series"});
+    return base::has_one_of(path, {".pvd", ".series"});
 }
 
 /// Refuses a word in braces that is nearly one of the places of steps.

@@ -1,7 +1,6 @@
 #include "core/base/text.hpp"
 
 #include <fast_float/fast_float.h>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,6 +17,13 @@ bool is_printable(char32_t code) {
     return !(code >= 0x2060 && code <= 0x2069) && code != 0x61C && code != 0xFEFF;  // isolates, marks without width
 }
 
+/// Of a byte, with leading zeros.
+std::string digits_of(unsigned char byte, unsigned base, std::size_t width) {
+    std::string out(width, '0');
+    for (unsigned rest = byte; width > 0; rest /= base) out[--width] = "0123456789abcdef"[rest % base];
+    return out;
+}
+
 /// A word that is not printable: printf makes its bytes, also of -, which at the front would begin an option of its.
 /// Line ends after the last other byte are lost in "$(...)" and follow as they are.
 std::string word_of_bytes(std::string_view text) {
@@ -26,7 +32,7 @@ std::string word_of_bytes(std::string_view text) {
     for (const char c : text.substr(0, end)) {
         const auto byte = static_cast<unsigned char>(c);
         const bool plain = byte >= 0x20 && byte < 0x7f && c != '\'' && c != '\\' && c != '-';
-        word += c == '%' ? "%%" : plain ? std::string(1, c) : fmt::format("\\{:03o}", byte);
+        word += c == '%' ? "%%" : plain ? std::string(1, c) : "\\" + digits_of(byte, 8, 3);
     }
     word += "')\"";
     if (end != text.size()) word += "'" + std::string(text.substr(end)) + "'";
@@ -40,6 +46,13 @@ std::string shortest(double x) {
     if (std::isnan(x)) return "nan";  // its sign bit says nothing
     std::array<char, 32> buffer{};
     const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), x);
+    return {buffer.data(), end};
+}
+
+std::string rounded_text(double x, std::chars_format format, int digits) {
+    const ExactEnvironment environment;
+    std::array<char, 400> buffer{};
+    const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), x, format, digits);
     return {buffer.data(), end};
 }
 
@@ -86,7 +99,7 @@ std::string printable(std::string_view text) {
         } else if (bytes == "\n" || bytes == "\t" || bytes == "\r") {
             out += bytes == "\n" ? "\\n" : bytes == "\t" ? "\\t" : "\\r";
         } else {
-            for (const char byte : bytes) out += fmt::format("\\x{:02x}", static_cast<unsigned char>(byte));
+            for (const char byte : bytes) out += "\\x" + digits_of(static_cast<unsigned char>(byte), 16, 2);
         }
     }
     return out;
@@ -132,9 +145,9 @@ std::string brief_count(std::uint64_t n) {
     double x = static_cast<double>(n);
     for (const char* unit : {"k", "M", "G", "T"}) {
         x /= 1000;
-        if (x < 999.5) return fmt::format("{:.{}f}{}", x, x < 9.995 ? 2 : x < 99.95 ? 1 : 0, unit);
+        if (x < 999.5) return rounded_text(x, std::chars_format::fixed, x < 9.995 ? 2 : x < 99.95 ? 1 : 0) + unit;
     }
-    return fmt::format("{:.1e}", static_cast<double>(n));
+    return rounded_text(static_cast<double>(n), std::chars_format::scientific, 1);
 }
 
 std::string grouped(std::uint64_t n) {

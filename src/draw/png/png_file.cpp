@@ -11,7 +11,7 @@
 #include "files/output_file.hpp"
 #include "barycert/io.hpp"
 
-namespace barycert::io {
+namespace barycert::png {
 namespace {
 
 /// All that outlives a jump: libpng leaves by longjmp, past which no object with a destructor may be.
@@ -210,4 +210,4 @@ Result<std::string> png_bytes(std::size_t width, std::span<const std::uint8_t> p
     return in_memory(image, width, pixels.size() / 4 / width, pixels, 4, nullptr);
 }
 
-}  // namespace barycert::io
+}  // namespace barycert::png

@@ -7,7 +7,7 @@
 
 #include "barycert/result.hpp"
 
-namespace barycert::io {
+namespace barycert::png {
 
 using Colour = std::array<std::uint8_t, 3>;  ///< red, green, blue, sRGB
 
@@ -43,4 +43,4 @@ struct PngPixels {
 /// Reads a PNG file of any kind, see read_png in raster.hpp. Memory: the file, 4 bytes a pixel, a few MiB of libpng.
 Result<PngPixels> read_png_pixels(const std::string& path, std::uint64_t max_pixels);
 
-}  // namespace barycert::io
+}  // namespace barycert::png

@@ -93,7 +93,7 @@ Status check_image(const Image& image) {
 }
 
 Result<Image> read_png(const std::string& path) {
-    Result<io::PngPixels> read = io::read_png_pixels(path, static_cast<std::uint64_t>(max_image_pixels));
+    Result<png::PngPixels> read = png::read_png_pixels(path, static_cast<std::uint64_t>(max_image_pixels));
     if (!read) return read.error();
     Image image{static_cast<std::int32_t>(read->width), static_cast<std::int32_t>(read->height), std::move(read->rows)};
     // From the top to from the bottom, in place.
@@ -111,15 +111,15 @@ Status write_png(const std::string& path, const Image& image) {
         return error;
     }
     const auto width = static_cast<std::size_t>(image.width), height = static_cast<std::size_t>(image.height);
-    if (std::max(width, height) > io::longest_png_side)
+    if (std::max(width, height) > png::longest_png_side)
         return file_error(path, "the image is too long for a PNG file",
-                          "at most " + std::to_string(io::longest_png_side) + " pixels a side",
+                          "at most " + std::to_string(png::longest_png_side) + " pixels a side",
                           by(image.width, image.height), "choose a smaller size");
     const std::size_t row = image.offset(0, 1);
     const auto copy_row = [&](std::size_t r, std::uint8_t* pixels) {
         std::copy_n(image.data.data() + (height - 1 - r) * row, row, pixels);
     };
-    return io::write_png_rows(path, width, height, copy_row, io::PngContent::shades);
+    return png::write_png_rows(path, width, height, copy_row, png::PngContent::shades);
 }
 
 Rgba texel(const Texture& texture, double u, double v) {

@@ -8,7 +8,7 @@
 #include "draw/figure_values.hpp"
 #include "draw/view.hpp"
 #include "barycert/environment.hpp"
-#include "io/vtk/packed.hpp"
+#include "files/deflate.hpp"
 #include "mesh/part.hpp"
 
 BARYCERT_EMBED(barycert_viewer, BARYCERT_VIEWER);
@@ -22,7 +22,7 @@ using Json = nlohmann::ordered_json;
 
 /// Deflated, in base64. Memory: three times the bytes.
 std::string packed(std::string_view bytes) {
-    const std::string out = io::pack(VtkData::zlib, bytes, 6);
+    const std::string out = base::deflated(bytes, 6);
     if (out.empty()) throw std::bad_alloc();
     return base64(out);
 }

@@ -176,7 +176,7 @@ namespace barycert {
 using namespace io;
 
 std::vector<std::string> plc_files(const std::string& path) {
-    const std::filesystem::path p(io::without_gz(path));
+    const std::filesystem::path p(base::without_gz(path));
     if (p.extension() != ".poly" && p.extension() != ".smesh") return {path};
     return {path, node_path_of(path)};
 }

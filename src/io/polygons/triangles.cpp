@@ -5,19 +5,6 @@
 namespace barycert::io {
 namespace {
 
-void add(Surface& surface, std::size_t facet, const surface::FacetTriangles& cut) {
-    for (const auto& t : cut.triangles) {
-        surface.cells.insert(surface.cells.end(), t.begin(), t.end());
-        surface.facets.push_back(static_cast<Mesh::Index>(facet));
-    }
-}
-
-void settle(Surface& surface, std::size_t facets) {
-    surface.facet_count = facets;
-    if (surface.facets.size() == facets && std::ranges::adjacent_find(surface.facets) == surface.facets.end())
-        surface.facets.clear();
-}
-
 void note_uncut(Surface& surface, std::size_t count, const char* what, const std::string& path) {
     if (count == 0) return;
     surface.notes.push_back({Note::Kind::left_out,
@@ -59,21 +46,6 @@ bool is_surface_file(const std::string& path) {
     return is_polygons_file(path) || has_suffix(path, ".vtp");
 }
 
-PlcTriangles triangles_of(const Plc& plc) {
-    PlcTriangles all;
-    all.surface.points = plc.points;
-    all.surface.index_base = plc.index_base;
-    all.surface.notes = plc.notes;
-    for (std::size_t i = 0; i < plc.facets.size(); ++i) {
-        const PlcFacet& facet = plc.facets[i];
-        const surface::FacetTriangles cut = surface::triangles_of_facet(plc.points, facet.polygons, facet.holes);
-        for (const surface::FacetFault& fault : cut.faults) all.faults.push_back({i, fault});
-        add(all.surface, i, cut);
-    }
-    settle(all.surface, plc.facets.size());
-    return all;
-}
-
 Surface surface_of(Polygons polygons, const std::string& path) {
     Surface surface = std::move(static_cast<Surface&>(polygons));
     std::size_t uncut = 0;
@@ -86,20 +58,20 @@ Surface surface_of(Polygons polygons, const std::string& path) {
             const std::vector<Mesh::Index> ring(corner, end);
             const surface::FacetTriangles cut = surface::triangles_of_facet(surface.points, {&ring, 1}, {});
             uncut += cut.triangles.empty() ? 1 : 0;
-            add(surface, i, cut);
+            surface::add_facet(surface, i, cut);
             corner = end;
         }
         for (Field& field : surface.cell_fields) field = mesh::rows_of(field, surface.facets);
-        settle(surface, polygons.count());
+        surface::settle_facets(surface, polygons.count());
     }
     note_uncut(surface, uncut, "polygons", path);
     return surface;
 }
 
 Surface surface_of(const Plc& plc, const std::string& path) {
-    PlcTriangles cut = triangles_of(plc);
+    surface::PlcTriangles cut = surface::triangles_of(plc);
     const auto uncut = std::ranges::count_if(
-        cut.faults, [](const PlcTriangles::Fault& f) { return f.fault.kind != surface::FacetFault::Kind::on_segment; });
+        cut.faults, [](const surface::PlcTriangles::Fault& f) { return f.fault.kind != surface::FacetFault::Kind::on_segment; });
     note_uncut(cut.surface, static_cast<std::size_t>(uncut), "facets", path);
     return std::move(cut.surface);
 }

@@ -1,25 +1,14 @@
-/// Triangles of polygons and PLCs.
+/// Surfaces of polygons and PLCs.
 #pragma once
 
 #include "io/polygons/polygons.hpp"
-#include "mesh/surface/facet_triangles.hpp"
+#include "mesh/surface/plc_triangles.hpp"
 
 namespace barycert::io {
-
-struct PlcTriangles {
-    struct Fault {
-        std::size_t facet;
-        surface::FacetFault fault;
-    };
-    Surface surface;  ///< of the facets without faults; points are those of the PLC
-    std::vector<Fault> faults;
-};
 
 /// By extension: polygons are all that read_plc takes; a PLC may have segments, holes and regions besides.
 bool is_polygons_file(const std::string& path);
 bool is_plc_file(const std::string& path);
-
-PlcTriangles triangles_of(const Plc& plc);
 
 Surface surface_of(Mesh mesh, InSpace space);
 

@@ -133,9 +133,9 @@ Result<SurfaceFile> write_surface(const Surface& surface, const std::string& pat
     const ExactEnvironment environment;
     if (const char* const fault = io::fault_of(surface); fault != nullptr)
         return file_error(path, "the surface is inconsistent", {}, fault);
-    if (io::has_suffix(path, ".vtp")) return io::write_vtp(surface, path, data);
-    if (io::has_suffix(path, ".ply")) return io::write_ply(surface, path);
-    if (io::has_suffix(path, ".off")) return io::write_off(surface, path);
+    if (base::has_suffix(path, ".vtp")) return io::write_vtp(surface, path, data);
+    if (base::has_suffix(path, ".ply")) return io::write_ply(surface, path);
+    if (base::has_suffix(path, ".off")) return io::write_off(surface, path);
     return io::unknown_suffix(path, "unknown suffix of a surface", ".vtp, .ply or .off", "choose another name");
 }
 

@@ -214,7 +214,7 @@ Source open_node_source(const std::string& path, int dimension, const PointOptio
 }  // namespace io
 
 std::string tetgen_stem(const std::string& path) {
-    const std::string_view plain = io::without_gz(path);
+    const std::string_view plain = base::without_gz(path);
     for (const std::string_view suffix : io::suffixes) {
         if (plain.ends_with(suffix)) return path.substr(0, plain.size() - suffix.size());
     }

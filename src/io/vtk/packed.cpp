@@ -9,6 +9,8 @@
 #include <memory>
 #include <new>
 
+#include "files/deflate.hpp"
+
 namespace barycert::io {
 bool unpack(VtkData compressor, std::string_view packed, char* to, std::size_t size) {
     if (compressor == VtkData::zlib) {
@@ -33,15 +35,10 @@ bool unpack(VtkData compressor, std::string_view packed, char* to, std::size_t s
 }
 
 std::string pack(VtkData compressor, std::string_view plain, int zlib_level) {
+    if (compressor == VtkData::zlib) return base::deflated(plain, zlib_level);
     std::string packed;
     std::size_t size = 0;
-    if (compressor == VtkData::zlib) {
-        const std::unique_ptr<libdeflate_compressor, void (*)(libdeflate_compressor*)> own(
-            libdeflate_alloc_compressor(zlib_level), libdeflate_free_compressor);
-        if (own == nullptr) return {};
-        packed.resize(libdeflate_zlib_compress_bound(own.get(), plain.size()));
-        size = libdeflate_zlib_compress(own.get(), plain.data(), plain.size(), packed.data(), packed.size());
-    } else if (compressor == VtkData::lz4 && std::in_range<int>(plain.size())) {
+    if (compressor == VtkData::lz4 && std::in_range<int>(plain.size())) {
         packed.resize(static_cast<std::size_t>(LZ4_compressBound(static_cast<int>(plain.size()))));
         constexpr int acceleration = 5;  // speed before size
         size = static_cast<std::size_t>(

@@ -110,12 +110,12 @@ std::string error_histogram(const KernelResult& k) {
     return svg_markup(svg);
 }
 
-std::string swatch(const io::Colour& c, std::string_view text) {
+std::string swatch(const png::Colour& c, std::string_view text) {
     return fmt::format("<span><i style=\"background:#{:02x}{:02x}{:02x}\"></i>{}</span> ", c[0], c[1], c[2], text);
 }
 
 struct SignColour {
-    io::Colour colour;
+    png::Colour colour;
     std::string_view text;
 };
 /// Of the signs -1, 0, 1 and of no answer.
@@ -130,9 +130,9 @@ std::string png_of(const SignPicture& p) {
     std::vector<std::uint8_t> pixels(side * side);
     for (std::size_t i = 0; i < pixels.size(); ++i)
         pixels[i] = static_cast<std::uint8_t>(p.signs[(side - 1 - i / side) * side + i % side] + 1);
-    std::array<io::Colour, sign_colours.size()> colours{};
+    std::array<png::Colour, sign_colours.size()> colours{};
     std::ranges::transform(sign_colours, colours.begin(), &SignColour::colour);
-    return io::indexed_png(side, pixels, colours).value();
+    return png::indexed_png(side, pixels, colours).value();
 }
 
 /// Pictures that are the same, in the order of the first.
@@ -204,7 +204,7 @@ struct MapScale {
 
     /// The power of ten at or below it: as many as fit the colours of a picture, from far below an ulp of 1 on.
     static int decade(double error) { return std::clamp(static_cast<int>(std::floor(std::log10(error))), -40, 60); }
-    std::vector<io::Colour> colours{{0xc4, 0xcb, 0xd1}, {0xff, 0xff, 0xff}, {0xc8, 0x10, 0x2e}};
+    std::vector<png::Colour> colours{{0xc4, 0xcb, 0xd1}, {0xff, 0xff, 0xff}, {0xc8, 0x10, 0x2e}};
     int low = std::numeric_limits<int>::max(), high = std::numeric_limits<int>::min();
 };
 
@@ -212,7 +212,7 @@ std::string map_figure(const MeshMap& map, const MeshMap::OfKernel& k, const Map
     std::vector<std::uint8_t> pixels;
     for (const std::int32_t p : map.pixels)
         pixels.push_back(p < 0 ? MapScale::beside : scale.index_of(k.errors[static_cast<std::size_t>(p)]));
-    const std::string png = io::indexed_png(map.width, pixels, scale.colours).value();
+    const std::string png = png::indexed_png(map.width, pixels, scale.colours).value();
     const auto worst = static_cast<std::size_t>(std::ranges::max_element(k.errors) - k.errors.begin());
     const double largest = k.errors[worst];
     const std::string name = xml_escaped(base::printable(k.kernel));

@@ -472,7 +472,7 @@ struct BaselineComparison {
 /// Errors: other cases, told by their exact regions (a mesh has changed, or barycert's families); nothing in common.
 Result<BaselineComparison> compare_with_baseline(const AuditReport& report, const Baseline& baseline);
 
-// An audit by names: of kernels and families, files of meshes, an earlier audit.
+// Kernels and families by names.
 
 /// Kernels by their names, and those of users' libraries.
 struct KernelChoice {
@@ -492,42 +492,6 @@ Result<Kernel> choose_kernel(const KernelChoice& choice);
 
 /// Those that match one of the names, in their order; all if there is none. Error: a name that none has.
 Result<std::vector<Family>> choose_families(const std::vector<std::string>& names);
-
-struct NamedMesh {
-    std::string name, path;  ///< as for read_mesh
-};
-
-struct AuditJob {
-    std::vector<NamedMesh> meshes;  ///< not read where no family draws from meshes, unless they are asked for
-    bool meshes_asked = false;
-    bool check = true;  ///< whether the meshes are partitions
-    Curved curved = Curved::isoparametric;
-    KernelChoice kernels = {};
-    std::vector<std::string> families = {};  ///< see choose_families
-    std::string baseline;                    ///< what an earlier audit wrote as JSON; empty: none
-    AuditOptions options = {};               ///< but for kernels and families
-};
-
-/// What run_audit() and audit_mutants() are given.
-struct PreparedAudit {
-    AuditOptions options;
-    MeshSource meshes;
-    std::optional<Baseline> baseline;
-    std::map<std::string, std::string> libraries;  ///< by the names of their kernels
-    Notes notes;                                   ///< of the meshes
-};
-
-/// Errors: those of the choices, of read_mesh and read_baseline; a mesh without cells; a baseline of other cases.
-Result<PreparedAudit> prepare_audit(const AuditJob& job);
-
-/// A case that a family makes, as a witness.
-struct CaseJob {
-    std::string family;
-    std::uint64_t seed = 1, index = 0;
-    std::string simplex, kernel, reason;  ///< empty: any; what family and kernel leave open, the simplex decides
-    std::vector<NamedMesh> meshes;        ///< for families that draw from meshes
-};
-Result<Witness> make_witness(const CaseJob& job, const std::vector<Kernel>& kernels);
 
 // Rules that answer cases of their own. A tally has what a rule answers to the cases of a family.
 

@@ -171,15 +171,6 @@ struct GapsReport : AuditRun {
 /// none that has one of the rules; two oracles that disagree.
 Result<GapsReport> find_gaps(const GapsOptions& options, const Mesh& mesh, const std::string& name, Verdict verdict);
 
-/// The same of a file.
-struct GapsJob {
-    std::string mesh;  ///< as for read_mesh
-    Curved curved = Curved::isoparametric;
-    bool check = true;  ///< whether the mesh is a partition
-    GapsOptions options = {};
-};
-Result<GapsReport> gaps_file(const GapsJob& job);
-
 /// FAULT or FAULT>NUMBER: more such points than that fail.
 struct GapsLimit {
     ClaimFault fault = ClaimFault::gap;

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "barycert/plc.hpp"
 #include "barycert/surface.hpp"
 
 namespace barycert {
@@ -173,28 +174,6 @@ Status write_vtu(const Mesh& mesh, const std::string& path, VtkData data = VtkDa
 // and crash on truncated files. In: .poly .smesh (nodes in the file or in STEM.node); .off, .obj; .stl and .ply, text
 // or binary. Memory stays within a small multiple of the file's size. A number with which the file ends is taken, and
 // told, for more digits may have been cut. Indices in memory are 0-based.
-
-struct PlcFacet {
-    std::vector<std::vector<std::int32_t>> polygons;  ///< rings of nodes; a ring of two is a segment
-    std::vector<double> holes;                        ///< 3 coordinates a point inside a hole of the facet
-    std::int32_t marker = 0;
-};
-
-struct Plc {
-    std::vector<double> points;  ///< 3 coordinates a node
-    int attribute_count = 0;
-    std::vector<double> attributes;           ///< attribute_count a node
-    std::vector<std::int32_t> point_markers;  ///< empty, or one a node
-    std::vector<PlcFacet> facets;
-    bool has_facet_markers = false;
-    std::vector<double> holes;    ///< 3 coordinates a point inside a cavity
-    std::vector<double> regions;  ///< 5 numbers a region: a point inside, an attribute, a largest volume
-    int index_base = 0;           ///< 0 or 1: the file's own numbering
-    bool nodes_apart = false;     ///< the nodes were in STEM.node
-    Notes notes = {};             ///< what the file has besides, and what it does not say
-
-    std::size_t point_count() const { return points.size() / 3; }
-};
 
 inline constexpr std::array<std::string_view, 6> plc_extensions{".poly", ".smesh", ".off", ".stl", ".ply", ".obj"};
 

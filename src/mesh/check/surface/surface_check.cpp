@@ -5,7 +5,7 @@
 #include <chrono>
 
 #include "mesh/check/surface/parts.hpp"
-#include "io/polygons/triangles.hpp"
+#include "mesh/surface/plc_triangles.hpp"
 
 namespace barycert {
 
@@ -13,7 +13,7 @@ using namespace check;
 
 namespace {
 
-using Fault = io::PlcTriangles::Fault;
+using Fault = surface::PlcTriangles::Fault;
 using FaultKind = surface::FacetFault::Kind;
 
 const char* detail(FaultKind kind) {
@@ -114,7 +114,7 @@ CheckReport check_surface(const Surface& surface, const CheckOptions& options) {
 
 CheckReport check_plc(const Plc& plc, const CheckOptions& options) {
     const ExactEnvironment environment;
-    const io::PlcTriangles cut = io::triangles_of(plc);
+    const surface::PlcTriangles cut = surface::triangles_of(plc);
     CheckReport report;
     report.certificate = Certificate(run_check(cut.surface, cut.faults, &plc, options, report));
     return report;

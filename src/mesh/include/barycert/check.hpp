@@ -33,7 +33,8 @@
 
 #include <functional>
 
-#include "barycert/io.hpp"
+#include "barycert/plc.hpp"
+#include "barycert/surface.hpp"
 
 namespace barycert {
 

@@ -1,0 +1,42 @@
+# The libraries of src, one a folder: what each is, needs and builds stands in its README.md and CMakeLists.txt.
+
+# barycert_library(NAME ABOUT SOURCES... [NEEDS LIBRARY...] [LINKS ...] [PACKAGES ...] [MODULES ...] [OTHERS ...]): the target
+# barycert_NAME, as barycert::NAME, of the folder that calls it. NEEDS: libraries of this project, whose public headers its own
+# include. LINKS: what its sources alone use. Once installed, who links it finds what that is by PACKAGES of CMake, by
+# MODULES of pkg-config, and by flags of OTHERS. Public headers stand in include/barycert; all others are found below src
+# by their path, in this project alone.
+function(barycert_library name about)
+  cmake_parse_arguments(ARG "" "" "NEEDS;LINKS;PACKAGES;MODULES;OTHERS" ${ARGN})
+  set(target barycert_${name})
+  add_library(${target} ${ARG_UNPARSED_ARGUMENTS})
+  add_library(barycert::${name} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  if(EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/include)
+    target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>)
+  endif()
+  target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>)
+  list(TRANSFORM ARG_NEEDS PREPEND barycert_ OUTPUT_VARIABLE needed)
+  target_link_libraries(${target} PUBLIC ${needed} PRIVATE $<BUILD_INTERFACE:barycert_flags> ${ARG_LINKS})
+  barycert_join(${target})
+  set_property(GLOBAL APPEND PROPERTY barycert_libraries ${name})
+  set_property(GLOBAL PROPERTY barycert_about_${name} ${about})
+  set_property(GLOBAL PROPERTY barycert_needs_${name} ${ARG_NEEDS})
+  set_property(GLOBAL PROPERTY barycert_packages_${name} ${ARG_PACKAGES})
+  set_property(GLOBAL PROPERTY barycert_modules_${name} ${ARG_MODULES})
+  set_property(GLOBAL PROPERTY barycert_others_${name} ${ARG_OTHERS})
+endfunction()
+
+# barycert_embed(TARGET SOURCE MACRO FILE): the file is part of the library, by BARYCERT_EMBED(name, macro) in the source.
+function(barycert_embed target source macro file)
+  set_property(SOURCE ${source} APPEND PROPERTY COMPILE_DEFINITIONS ${macro}="${PROJECT_SOURCE_DIR}/${file}")
+  set_property(SOURCE ${source} APPEND PROPERTY OBJECT_DEPENDS ${PROJECT_SOURCE_DIR}/${file})
+endfunction()
+
+# barycert_scheduled(SOURCE...): lanes are long sequences with many independent parts. GCC schedules them before it allocates
+# registers only if asked: 10 % for weights and values. No influence on results.
+function(barycert_scheduled)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "-fschedule-insns;-fsched-pressure")
+  endif()
+endfunction()

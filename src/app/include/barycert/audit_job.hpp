@@ -1,0 +1,59 @@
+/// Audits by names of files: of meshes, an earlier audit.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "barycert/audit.hpp"
+#include "barycert/audit_search.hpp"
+
+namespace barycert {
+
+struct NamedMesh {
+    std::string name, path;  ///< as for read_mesh
+};
+
+struct AuditJob {
+    std::vector<NamedMesh> meshes;  ///< not read where no family draws from meshes, unless they are asked for
+    bool meshes_asked = false;
+    bool check = true;  ///< whether the meshes are partitions
+    Curved curved = Curved::isoparametric;
+    KernelChoice kernels = {};
+    std::vector<std::string> families = {};  ///< see choose_families
+    std::string baseline;                    ///< what an earlier audit wrote as JSON; empty: none
+    AuditOptions options = {};               ///< but for kernels and families
+};
+
+/// What run_audit() and audit_mutants() are given.
+struct PreparedAudit {
+    AuditOptions options;
+    MeshSource meshes;
+    std::optional<Baseline> baseline;
+    std::map<std::string, std::string> libraries;  ///< by the names of their kernels
+    Notes notes;                                   ///< of the meshes
+};
+
+/// Errors: those of the choices, of read_mesh and read_baseline; a mesh without cells; a baseline of other cases.
+Result<PreparedAudit> prepare_audit(const AuditJob& job);
+
+/// A case that a family makes, as a witness.
+struct CaseJob {
+    std::string family;
+    std::uint64_t seed = 1, index = 0;
+    std::string simplex, kernel, reason;  ///< empty: any; what family and kernel leave open, the simplex decides
+    std::vector<NamedMesh> meshes;        ///< for families that draw from meshes
+};
+Result<Witness> make_witness(const CaseJob& job, const std::vector<Kernel>& kernels);
+
+/// Points of a mesh that a kernel loses between cells: find_gaps() of a file.
+struct GapsJob {
+    std::string mesh;  ///< as for read_mesh
+    Curved curved = Curved::isoparametric;
+    bool check = true;  ///< whether the mesh is a partition
+    GapsOptions options = {};
+};
+Result<GapsReport> gaps_file(const GapsJob& job);
+
+}  // namespace barycert
