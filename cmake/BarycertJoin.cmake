@@ -22,7 +22,7 @@ function(barycert_join target)
     file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${folder})
     file(STRINGS ${path} lanes REGEX "core/foreach_target.hpp")
     # Sources of these folders have names of their own that others there have, too.
-    if(lanes OR folder MATCHES "mesh/(check|index|surface)$")
+    if(lanes OR folder MATCHES "src/core$|src/draw|mesh/(check|index|surface)$")
       continue()
     endif()
     string(MAKE_C_IDENTIFIER ${folder} group)

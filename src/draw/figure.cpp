@@ -4,6 +4,7 @@
 #include "draw/files.hpp"
 #include "draw/layout.hpp"
 #include "files/suffix.hpp"
+#include "barycert/environment.hpp"
 #include "draw/png/png_file.hpp"
 
 namespace barycert {

@@ -9,7 +9,6 @@
 
 #include "files/input_file.hpp"
 #include "files/output_file.hpp"
-#include "barycert/io.hpp"
 
 namespace barycert::png {
 namespace {

@@ -8,7 +8,6 @@
 #include "files/input_file.hpp"
 #include "core/base/text.hpp"
 #include "barycert/environment.hpp"
-#include "barycert/io.hpp"
 #include "draw/raster/colour_bytes.hpp"
 #include "barycert/scene.hpp"
 

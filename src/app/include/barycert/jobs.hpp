@@ -10,6 +10,7 @@
 #include "barycert/check.hpp"
 #include "barycert/figure.hpp"
 #include "barycert/grid.hpp"
+#include "barycert/io.hpp"
 #include "barycert/verify.hpp"
 
 namespace barycert {
