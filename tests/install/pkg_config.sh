@@ -9,7 +9,7 @@ found=$(find "$prefix" -name barycert.pc)
 [ -n "$found" ] || { echo "no barycert.pc in $prefix"; exit 1; }
 PKG_CONFIG_PATH=$(dirname "$found")
 export PKG_CONFIG_PATH
-pkg-config --validate barycert barycert-audit
+pkg-config --validate barycert barycert-core barycert-audit barycert-audit-report
 rm -rf "$work" && mkdir -p "$work"
 
 # expect MODULE PROGRAM ANSWER [ARGS...]
@@ -22,9 +22,9 @@ expect() {
     [ "$said" = "$answer" ] || { printf '%s says: %s\nnot: %s\n' "$program" "$said" "$answer"; exit 1; }
 }
 compile="$* -std=c++20"
-expect barycert read_mesh "2 dimensions, cells, kernels many, weights 0.25 0.25 0.5" "$plate"
+expect barycert read_mesh "2 dimensions, cells, weights 0.25 0.25 0.5" "$plate"
 expect barycert sample_field "walk, cells 0 0 -1, values 1 1.5 nan, grid to 3, 12 points"
-expect barycert-audit ask_oracle "interior, third exact, value 1, report long"
+expect barycert-audit-report ask_oracle "interior, third exact, value 1, report long"
 # Where it was moved to it is found as well.
 folder=${PKG_CONFIG_PATH#"$prefix"}
 mkdir -p "$work/moved$folder"
