@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "barycert/base/output_file.hpp"
-#include "barycert/base/text.hpp"
+#include "files/output_file.hpp"
+#include "core/base/text.hpp"
 #include "barycert/io.hpp"
 #include "shapes.hpp"
 

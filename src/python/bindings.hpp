@@ -12,6 +12,7 @@
 #include <type_traits>
 
 #include "barycert/check.hpp"
+#include "barycert/io.hpp"
 #include "barycert/sampler.hpp"
 
 namespace barycert::python {

@@ -10,7 +10,7 @@
 #include "core/simd_targets.hpp"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "core/gradient_bound_test.cpp"
+#define HWY_TARGET_INCLUDE "tests/core/gradient_bound_test.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h.
 #include <hwy/highway.h>

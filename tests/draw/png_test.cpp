@@ -6,7 +6,7 @@
 
 #include "draw/png/png_file.hpp"
 
-namespace barycert::io {
+namespace barycert::png {
 namespace {
 
 TEST(IndexedPng, EveryPixelIsItsColour) {
@@ -30,4 +30,4 @@ TEST(IndexedPng, EveryPixelIsItsColour) {
 }
 
 }  // namespace
-}  // namespace barycert::io
+}  // namespace barycert::png
