@@ -18,6 +18,9 @@ function(barycert_library name about)
   target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>)
   list(TRANSFORM ARG_NEEDS PREPEND barycert_ OUTPUT_VARIABLE needed)
   target_link_libraries(${target} PUBLIC ${needed} PRIVATE $<BUILD_INTERFACE:barycert_flags> ${ARG_LINKS})
+  if(BARYCERT_FUZZ)
+    barycert_fuzzed(${ARG_UNPARSED_ARGUMENTS})
+  endif()
   barycert_join(${target})
   set_property(GLOBAL APPEND PROPERTY barycert_libraries ${name})
   set_property(GLOBAL PROPERTY barycert_about_${name} ${about})
@@ -25,6 +28,28 @@ function(barycert_library name about)
   set_property(GLOBAL PROPERTY barycert_packages_${name} ${ARG_PACKAGES})
   set_property(GLOBAL PROPERTY barycert_modules_${name} ${ARG_MODULES})
   set_property(GLOBAL PROPERTY barycert_others_${name} ${ARG_OTHERS})
+endfunction()
+
+# barycert_fuzzed(SOURCE...): how sources are instrumented for the fuzzer. What Highway compiles once for each processor takes
+# Clang a quarter of an hour a source under UndefinedBehaviorSanitizer or without -O2, and core/lanes.cpp as long under any
+# instrumentation: ./run asan has them under both sanitizers.
+function(barycert_fuzzed)
+  foreach(source ${ARGN})
+    set(path ${CMAKE_CURRENT_SOURCE_DIR}/${source})
+    file(STRINGS ${path} lanes REGEX "core/foreach_target.hpp")
+    if(path MATCHES "/core/lanes.cpp$")
+      set_property(SOURCE ${source} APPEND PROPERTY COMPILE_OPTIONS -O2 -fno-sanitize=all)
+    elseif(path MATCHES "/fill_lanes.cpp$")
+      set_property(SOURCE ${source} APPEND PROPERTY COMPILE_OPTIONS -O2 -fno-sanitize=undefined)
+    elseif(lanes)
+      set_property(SOURCE ${source} APPEND PROPERTY COMPILE_OPTIONS -fno-sanitize=undefined)
+    endif()
+    # To tell the fuzzer what is compared helps it past the words and counts of a file; where numbers are computed and errors
+    # written it teaches nothing, and takes half of the time.
+    if(path MATCHES "/src/(core|files|mesh/(index|check|locate|sample))/")
+      set_property(SOURCE ${source} APPEND PROPERTY COMPILE_OPTIONS -O2 -fno-sanitize-coverage=trace-cmp)
+    endif()
+  endforeach()
 endfunction()
 
 # barycert_embed(TARGET SOURCE MACRO FILE): the file is part of the library, by BARYCERT_EMBED(name, macro) in the source.

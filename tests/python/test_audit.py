@@ -187,7 +187,7 @@ int barycert_kernel_weights(const double* vertices, const double* point, double*
 """
     )
     library = tmp_path / "corner.so"
-    command = ["cc", "-shared", "-fPIC", "-I", os.path.join(SOURCES, "src"), "-o", library, source]
+    command = ["cc", "-shared", "-fPIC", "-I", os.path.join(SOURCES, "src", "audit", "include"), "-o", library, source]
     subprocess.run(command, check=True)
     for contained in (True, False):
         report = barycert.audit(library, count=20, contained=contained)
