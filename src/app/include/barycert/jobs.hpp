@@ -229,10 +229,6 @@ struct CheckedMesh {
 /// input or cannot be written. What goes wrong once the mesh is checked does not cost the report: CheckedMesh::written.
 Result<CheckedMesh> check_files(const CheckJob& job);
 
-/// The triangles of a surface or PLC from in front and from behind, grey; those with defects red. At most 256 colours.
-/// Error: no triangles; indices or coordinates that cannot be drawn.
-Result<Image> draw_checked(const CheckReport& report, const Surface& surface);
-
 // The results that some tool wrote into a file, held against the exact ones.
 
 /// A rule of --fail-on: more such rows than that fail.

@@ -11,6 +11,9 @@
 
 namespace barycert {
 
+struct CheckReport;
+struct Surface;
+
 /// Triangles, by their points.
 struct FigureSurface {
     std::span<const double> points = {};           ///< coordinates in any unit, finite: dimension of the figure each
@@ -133,5 +136,9 @@ bool is_figure_name(std::string_view path);
 /// there is no value, and up to a million pixels a side, written line by line. Error: as draw_figure; the file cannot
 /// be written.
 Status write_figure(const std::string& path, const Figure& figure, FigureCounts* counts = nullptr);
+
+/// The triangles of a surface or PLC from in front and from behind, grey; those with defects red. At most 256 colours.
+/// Error: no triangles; indices or coordinates that cannot be drawn.
+Result<Image> draw_checked(const CheckReport& report, const Surface& surface);
 
 }  // namespace barycert
