@@ -22,6 +22,8 @@ function(barycert_library name about)
     barycert_fuzzed(${ARG_UNPARSED_ARGUMENTS})
   endif()
   barycert_join(${target})
+  # At the end of the folder: sources get options after this call.
+  cmake_language(EVAL CODE "cmake_language(DEFER CALL barycert_precompile ${target})")
   set_property(GLOBAL APPEND PROPERTY barycert_libraries ${name})
   set_property(GLOBAL PROPERTY barycert_about_${name} ${about})
   set_property(GLOBAL PROPERTY barycert_needs_${name} ${ARG_NEEDS})
