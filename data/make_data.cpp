@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "files/output_file.hpp"
-#include "core/base/text.hpp"
 #include "barycert/io.hpp"
+#include "core/base/text.hpp"
+#include "files/output_file.hpp"
 #include "shapes.hpp"
 
 namespace barycert::data {

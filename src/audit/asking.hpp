@@ -2,11 +2,11 @@
 /// answer; and the figures of many answers.
 #pragma once
 
+#include "audit/kernels/host.hpp"
 #include "barycert/audit.hpp"
 #include "core/base/nearest_name.hpp"
 #include "core/base/text.hpp"
 #include "core/base/workers.hpp"
-#include "audit/kernels/host.hpp"
 
 namespace barycert::audit {
 
@@ -19,8 +19,8 @@ constexpr bool is_inside(Region r) {
 }
 
 /// That `word` is none of these names.
-inline Error unknown_name(std::string what, std::string expected, const std::string& word, const std::vector<std::string>& names,
-              std::string_view lists = {}) {
+inline Error unknown_name(std::string what, std::string expected, const std::string& word,
+                          const std::vector<std::string>& names, std::string_view lists = {}) {
     return file_error({}, std::move(what), std::move(expected), '"' + word + '"',
                       base::did_you_mean(word, names, lists));
 }

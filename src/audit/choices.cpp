@@ -79,7 +79,7 @@ Result<Kernel> choose_kernel(const KernelChoice& choice) {
     const std::vector<Kernel> kernels = kernels_matching(name);
     if (kernels.size() == 1) return kernels.front();
     Error error = audit::unknown_name("which kernel", "the name of one kernel", name, names_of(catalogue()),
-                          "`barycert kernels` lists the names");
+                                      "`barycert kernels` lists the names");
     if (!kernels.empty()) error.found = std::to_string(kernels.size()) + " of them";
     return error;
 }

@@ -1,9 +1,9 @@
 /// Points on what cells share, and the cells around them.
 #pragma once
 
-#include "core/base/lists.hpp"
 #include "barycert/mesh.hpp"
 #include "barycert/simplex.hpp"
+#include "core/base/lists.hpp"
 
 namespace barycert::audit {
 

@@ -1,8 +1,8 @@
 #include "audit/judge.hpp"
 
+#include "barycert/weights.hpp"
 #include "core/base/random.hpp"
 #include "core/base/text.hpp"
-#include "barycert/weights.hpp"
 
 namespace barycert::audit {
 namespace {

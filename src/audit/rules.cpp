@@ -5,8 +5,8 @@
 
 #include "audit/asking.hpp"
 #include "audit/inverses/reference.hpp"
-#include "core/base/ulp.hpp"
 #include "barycert/locator.hpp"
+#include "core/base/ulp.hpp"
 #include "mesh/pulling.hpp"
 
 namespace barycert {

@@ -1,10 +1,10 @@
 #include <cmath>
 
 #include "audit/asking.hpp"
+#include "barycert/weights.hpp"
 #include "core/base/decades.hpp"
 #include "core/base/range.hpp"
 #include "core/base/strict_math.hpp"
-#include "barycert/weights.hpp"
 
 namespace barycert {
 

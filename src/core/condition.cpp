@@ -3,11 +3,11 @@
 #include <cmath>
 #include <limits>
 
+#include "barycert/environment.hpp"
 #include "core/base/finite.hpp"
 #include "core/base/strict_math.hpp"
 #include "core/numerators-inl.hpp"
 #include "core/scaled_double.hpp"
-#include "barycert/environment.hpp"
 
 namespace barycert::core {
 namespace {

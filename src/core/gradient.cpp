@@ -1,6 +1,6 @@
+#include "barycert/environment.hpp"
 #include "core/blocks.hpp"
 #include "core/exact_tier.hpp"
-#include "barycert/environment.hpp"
 
 namespace barycert::core {
 namespace {

@@ -1,8 +1,8 @@
 #include "barycert/perspective.hpp"
 
+#include "barycert/environment.hpp"
 #include "core/blocks.hpp"
 #include "core/exact_tier.hpp"
-#include "barycert/environment.hpp"
 
 namespace barycert::core {
 namespace {

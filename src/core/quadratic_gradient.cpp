@@ -1,8 +1,8 @@
+#include "barycert/environment.hpp"
 #include "core/blocks.hpp"
 #include "core/exact_tier.hpp"
 #include "core/numerators-inl.hpp"
 #include "core/scaled_double.hpp"
-#include "barycert/environment.hpp"
 
 namespace barycert::core {
 namespace {

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/text.hpp"
 #include "barycert/figure.hpp"
+#include "core/base/text.hpp"
 
 namespace barycert {
 namespace draw {

@@ -1,11 +1,11 @@
 #include <algorithm>
 
+#include "barycert/environment.hpp"
 #include "draw/figure_values.hpp"
 #include "draw/files.hpp"
 #include "draw/layout.hpp"
-#include "files/suffix.hpp"
-#include "barycert/environment.hpp"
 #include "draw/png/png_file.hpp"
+#include "files/suffix.hpp"
 
 namespace barycert {
 namespace draw {

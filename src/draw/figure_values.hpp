@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "draw/colour_map.hpp"
 #include "barycert/figure.hpp"
+#include "draw/colour_map.hpp"
 
 namespace barycert::draw {
 

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/text.hpp"
 #include "files/embedded.hpp"
 #include "files/output_file.hpp"
-#include "core/base/text.hpp"
 #include "files/suffix.hpp"
 
 // As it is in data/fonts.

@@ -1,8 +1,8 @@
 /// Figures as pictures.
 #pragma once
 
-#include "draw/picture.hpp"
 #include "barycert/figure.hpp"
+#include "draw/picture.hpp"
 
 namespace barycert::draw {
 

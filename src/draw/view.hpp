@@ -3,9 +3,9 @@
 
 #include <cmath>
 
+#include "barycert/figure.hpp"
 #include "core/base/range.hpp"
 #include "draw/colour_map.hpp"
-#include "barycert/figure.hpp"
 #include "draw/raster/layers.hpp"
 
 namespace barycert::draw {

@@ -12,8 +12,8 @@
 #include <map>
 #include <span>
 
-#include "files/descriptor.hpp"
 #include "barycert/result.hpp"
+#include "files/descriptor.hpp"
 
 namespace barycert::base {
 

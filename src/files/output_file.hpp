@@ -1,8 +1,8 @@
 /// Files that appear whole or not at all.
 #pragma once
 
-#include "files/descriptor.hpp"
 #include "barycert/result.hpp"
+#include "files/descriptor.hpp"
 
 namespace barycert::base {
 

@@ -3,8 +3,8 @@
 
 #include <span>
 
-#include "files/descriptor.hpp"
 #include "barycert/result.hpp"
+#include "files/descriptor.hpp"
 
 namespace barycert::base {
 

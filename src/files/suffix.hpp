@@ -1,12 +1,16 @@
-/// How the names of files end.
+/// How the names of files end, and whether there are such files.
 #pragma once
 
 #include <algorithm>
+#include <cctype>
 #include <initializer_list>
 #include <string>
 #include <string_view>
 
 namespace barycert::base {
+
+/// Whether there is something of that name, as far as one may see.
+bool file_exists(const std::string& path);
 
 inline std::string lower(std::string_view text) {
     std::string out(text);

@@ -4,40 +4,13 @@
 #include <filesystem>
 #include <limits>
 
-#include "mesh/threads/arena.hpp"
 #include "core/base/nearest_name.hpp"
 #include "mesh/pulling.hpp"
+#include "mesh/threads/arena.hpp"
 
 namespace barycert::io {
 
 namespace fs = std::filesystem;
-
-std::vector<std::string_view> cut_fields(std::string_view line, std::string_view blanks, std::string_view separators) {
-    std::vector<std::string_view> fields;
-    const auto is_one = [&](std::size_t i, std::string_view of) {
-        return i < line.size() && of.find(line[i]) != std::string_view::npos;
-    };
-    std::size_t i = 0;
-    const auto skip_blanks = [&] {
-        while (is_one(i, blanks)) ++i;
-    };
-    bool separated = false;
-    for (skip_blanks(); i < line.size(); skip_blanks()) {
-        const std::size_t begin = i;
-        while (i < line.size() && !is_one(i, blanks) && !is_one(i, separators)) ++i;
-        fields.push_back(line.substr(begin, i - begin));
-        skip_blanks();
-        separated = is_one(i, separators);
-        if (separated) ++i;
-    }
-    if (separated) fields.push_back(line.substr(line.size()));
-    return fields;
-}
-
-bool exists(const std::string& path) {
-    std::error_code ignored;
-    return fs::exists(path, ignored);
-}
 
 bool is_read_once(const std::string& path) {
     std::error_code ignored;

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <new>
 
-#include "files/input_file.hpp"
-#include "files/suffix.hpp"
-#include "core/base/text.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/io.hpp"
+#include "core/base/text.hpp"
+#include "files/input_file.hpp"
+#include "files/suffix.hpp"
 
 namespace barycert::io {
 
@@ -65,8 +65,9 @@ inline std::size_t line_of(std::string_view text, const char* at) {
     return static_cast<std::size_t>(std::count(text.data(), at, '\n')) + 1;
 }
 
-/// Whether there is something of that name, as far as one may see.
-bool exists(const std::string& path);
+inline bool exists(const std::string& path) {
+    return base::file_exists(path);
+}
 
 /// Whether it is the standard input, a pipe or a device.
 bool is_read_once(const std::string& path);

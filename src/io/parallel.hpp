@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <atomic>
 
-#include "mesh/threads/arena.hpp"
-#include "core/base/large_pages.hpp"
 #include "barycert/environment.hpp"
+#include "core/base/large_pages.hpp"
+#include "mesh/threads/arena.hpp"
 
 namespace barycert::io {
 

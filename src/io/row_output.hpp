@@ -4,8 +4,8 @@
 #include <charconv>
 #include <cstring>
 
-#include "files/output_file.hpp"
 #include "barycert/mesh.hpp"
+#include "files/output_file.hpp"
 
 namespace barycert::io {
 

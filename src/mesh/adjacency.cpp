@@ -4,8 +4,8 @@
 #include <atomic>
 #include <tuple>
 
-#include "mesh/threads/arena.hpp"
 #include "core/base/large_pages.hpp"
+#include "mesh/threads/arena.hpp"
 
 namespace barycert::mesh {
 namespace {

@@ -1,8 +1,8 @@
 /// Which cells are images of reference cells, and by which nodes.
 #pragma once
 
-#include "core/isoparametric/inverse.hpp"
 #include "barycert/mesh.hpp"
+#include "core/isoparametric/inverse.hpp"
 
 namespace barycert::mesh {
 

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "mesh/threads/arena.hpp"
 #include "core/base/finite.hpp"
 #include "mesh/mid_edges.hpp"
+#include "mesh/threads/arena.hpp"
 
 namespace barycert::mesh {
 namespace {

@@ -1,16 +1,15 @@
 // Second-order cells whose sides are not straight.
 
-
 #include <algorithm>
 #include <cmath>
 
-#include "mesh/threads/arena.hpp"
+#include "barycert/environment.hpp"
 #include "core/base/text.hpp"
 #include "core/isoparametric/shape_functions.hpp"
-#include "barycert/environment.hpp"
 #include "mesh/mid_edges.hpp"
 #include "mesh/pulling.hpp"
 #include "mesh/straight_nodes.hpp"
+#include "mesh/threads/arena.hpp"
 
 namespace barycert {
 namespace {

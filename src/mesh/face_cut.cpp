@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/base/vectors.hpp"
 #include "barycert/predicates.hpp"
+#include "core/base/vectors.hpp"
 
 namespace barycert::mesh {
 namespace {

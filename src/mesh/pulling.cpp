@@ -7,7 +7,7 @@
 #include <numeric>
 #include <unordered_map>
 
-#include "mesh/threads/arena.hpp"
+#include "barycert/predicates.hpp"
 #include "core/base/finite.hpp"
 #include "core/base/large_pages.hpp"
 #include "mesh/cell_rings.hpp"
@@ -15,7 +15,7 @@
 #include "mesh/columns.hpp"
 #include "mesh/part.hpp"
 #include "mesh/solid_cut.hpp"
-#include "barycert/predicates.hpp"
+#include "mesh/threads/arena.hpp"
 
 namespace barycert::mesh {
 namespace {

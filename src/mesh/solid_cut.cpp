@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "mesh/tetrahedra_search.hpp"
 #include "barycert/predicates.hpp"
+#include "mesh/tetrahedra_search.hpp"
 
 namespace barycert::mesh {
 namespace {

@@ -7,8 +7,8 @@
 #include <map>
 #include <unordered_map>
 
-#include "core/whole_points.hpp"
 #include "barycert/predicates.hpp"
+#include "core/whole_points.hpp"
 
 namespace barycert::mesh {
 namespace {

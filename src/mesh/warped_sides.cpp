@@ -5,10 +5,10 @@
 #include <atomic>
 #include <unordered_map>
 
-#include "mesh/threads/arena.hpp"
+#include "barycert/predicates.hpp"
 #include "core/base/lists.hpp"
 #include "mesh/pulling.hpp"
-#include "barycert/predicates.hpp"
+#include "mesh/threads/arena.hpp"
 
 namespace barycert::mesh {
 namespace {

@@ -57,9 +57,9 @@ struct ProbeReport {
 };
 
 /// Every rank calls it. Agrees on what the pieces are pieces of (dimension, plane, numbering, arrays); then as
-/// mesh/pieces/distribution.hpp says. Gives `output` the arrays of a probe at the points of `input`. An Error is the same on
-/// all ranks; `output` then may have some of the arrays. `ready`: an Error if this rank has no right input or source. A
-/// null source is an empty piece.
+/// mesh/pieces/distribution.hpp says. Gives `output` the arrays of a probe at the points of `input`. An Error is the
+/// same on all ranks; `output` then may have some of the arrays. `ready`: an Error if this rank has no right input or
+/// source. A null source is an empty piece.
 Status probe_pieces(pieces::Exchange& exchange, const ProbeSettings& settings, const Status& ready, vtkDataSet* input,
                     vtkDataSet* source, vtkDataSet* output, ProbeReport& report);
 

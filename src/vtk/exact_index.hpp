@@ -4,8 +4,8 @@
 #include <vtkType.h>
 
 #include "barycert/io.hpp"
-#include "mesh/pieces/piece.hpp"
 #include "barycert/surface_locator.hpp"
+#include "mesh/pieces/piece.hpp"
 
 class vtkCell;
 class vtkDataSet;

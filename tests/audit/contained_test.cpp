@@ -14,9 +14,9 @@
 #include <fstream>
 #include <new>
 
-#include "audit_helpers.hpp"
 #include "audit/asking.hpp"
 #include "audit/kernels/channel.hpp"
+#include "audit_helpers.hpp"
 #include "tests/processes.hpp"
 #include "tests/sanitized.hpp"
 

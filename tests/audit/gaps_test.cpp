@@ -6,8 +6,8 @@
 
 #include <algorithm>
 
-#include "audit_helpers.hpp"
 #include "audit/gap_points.hpp"
+#include "audit_helpers.hpp"
 #include "barycert/audit_report.hpp"
 #include "barycert/weights.hpp"
 

@@ -9,9 +9,9 @@
 #include <map>
 #include <set>
 
-#include "audit_helpers.hpp"
 #include "audit/gap_points.hpp"
 #include "audit/recipes.hpp"
+#include "audit_helpers.hpp"
 #include "core/base/finite.hpp"
 #include "core/base/random.hpp"
 

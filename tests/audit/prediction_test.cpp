@@ -7,10 +7,10 @@
 #include <cmath>
 #include <limits>
 
-#include "tests/audit/audit_helpers.hpp"
-#include "tests/audit/compared_weights.hpp"
 #include "barycert/oracle.hpp"
 #include "barycert/weights.hpp"
+#include "tests/audit/audit_helpers.hpp"
+#include "tests/audit/compared_weights.hpp"
 
 namespace barycert::audit {
 namespace {

@@ -7,8 +7,8 @@
 #include <chrono>
 #include <cmath>
 
-#include "audit_helpers.hpp"
 #include "audit/block.hpp"
+#include "audit_helpers.hpp"
 #include "barycert/audit_report.hpp"
 
 namespace barycert::audit {

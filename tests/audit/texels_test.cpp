@@ -7,8 +7,8 @@
 #include <cmath>
 #include <string>
 
-#include "core/base/random.hpp"
 #include "barycert/oracle.hpp"
+#include "core/base/random.hpp"
 
 namespace barycert::audit {
 namespace {

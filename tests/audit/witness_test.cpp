@@ -7,8 +7,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "audit_helpers.hpp"
 #include "audit/recipes.hpp"
+#include "audit_helpers.hpp"
 #include "barycert/audit_report.hpp"
 #include "compared_weights.hpp"
 

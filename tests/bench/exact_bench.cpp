@@ -20,11 +20,11 @@
 #include <vector>
 
 #include "barycert/audit.hpp"
-#include "core/base/random.hpp"
-#include "core/blocks.hpp"
 #include "barycert/oracle.hpp"
 #include "barycert/predicates.hpp"
 #include "barycert/weights.hpp"
+#include "core/base/random.hpp"
+#include "core/blocks.hpp"
 #include "exact_peers.hpp"
 #include "exact_table.hpp"
 #include "numerators.hpp"

@@ -4,8 +4,8 @@
 
 #include <cstddef>
 
-#include "core/lanes.hpp"
 #include "barycert/predicates.hpp"
+#include "core/lanes.hpp"
 
 namespace barycert::peers {
 

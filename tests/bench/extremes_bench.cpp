@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <limits>
 
-#include "tests/core/extremes.hpp"
 #include "exact_table.hpp"
+#include "tests/core/extremes.hpp"
 
 namespace {
 

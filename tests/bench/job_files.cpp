@@ -12,10 +12,10 @@
 #include <sstream>
 #include <utility>
 
-#include "core/base/random.hpp"
-#include "core/base/text.hpp"
 #include "barycert/grid.hpp"
 #include "barycert/io.hpp"
+#include "core/base/random.hpp"
+#include "core/base/text.hpp"
 #include "job_process.hpp"
 #include "sample_subject.hpp"
 

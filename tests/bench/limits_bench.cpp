@@ -22,10 +22,10 @@
 #include <utility>
 #include <vector>
 
-#include "files/descriptor.hpp"
+#include "barycert/environment.hpp"
 #include "core/base/large_pages.hpp"
 #include "core/base/random.hpp"
-#include "barycert/environment.hpp"
+#include "files/descriptor.hpp"
 #include "require.hpp"
 
 #undef HWY_TARGET_INCLUDE

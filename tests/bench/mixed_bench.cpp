@@ -27,20 +27,20 @@
 #include <string>
 #include <string_view>
 
-#include "core/base/large_pages.hpp"
-#include "core/base/random.hpp"
-#include "core/base/text.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/grid.hpp"
 #include "barycert/io.hpp"
 #include "barycert/verify.hpp"
+#include "core/base/large_pages.hpp"
+#include "core/base/random.hpp"
+#include "core/base/text.hpp"
 #include "generated_mesh.hpp"
-#include "tests/mesh/whole_cells.hpp"
 #include "peak_memory.hpp"
 #include "sample_contest.hpp"
 #include "sample_peers.hpp"
 #include "sample_subject.hpp"
 #include "sample_table.hpp"
+#include "tests/mesh/whole_cells.hpp"
 
 namespace {
 

@@ -14,8 +14,8 @@
 #include <cstdlib>
 #include <vector>
 
-#include "core/base/random.hpp"
 #include "barycert/oracle.hpp"
+#include "core/base/random.hpp"
 #include "numerators.hpp"
 
 namespace {

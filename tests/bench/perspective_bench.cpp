@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "core/base/random.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/perspective.hpp"
+#include "core/base/random.hpp"
 #include "exact_table.hpp"
 #include "require.hpp"
 

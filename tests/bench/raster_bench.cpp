@@ -10,8 +10,8 @@
 #include <cstdlib>
 #include <vector>
 
-#include "core/base/random.hpp"
 #include "barycert/raster.hpp"
+#include "core/base/random.hpp"
 #include "exact_table.hpp"
 #ifdef BARYCERT_WITH_OSMESA
 #include "raster_mesa.hpp"

@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "core/base/random.hpp"
 #include "barycert/check.hpp"
+#include "core/base/random.hpp"
 #include "sample_rounds.hpp"
 
 namespace barycert::bench {

@@ -13,9 +13,9 @@
 
 #include <limits>
 
-#include "tests/mesh/whole_cells.hpp"
 #include "sample_peers.hpp"
 #include "sample_subject.hpp"
+#include "tests/mesh/whole_cells.hpp"
 #include "tests/vtk_grid.hpp"
 
 namespace barycert::bench {

@@ -15,11 +15,11 @@
 #include <numeric>
 #include <random>
 
-#include "mesh/threads/arena.hpp"
 #include "barycert/check.hpp"
+#include "barycert/surface_locator.hpp"
 #include "mesh/index/open_sheets.hpp"
 #include "mesh/index/triangles.hpp"
-#include "barycert/surface_locator.hpp"
+#include "mesh/threads/arena.hpp"
 #include "require.hpp"
 #include "surface_query_peers.hpp"
 

@@ -29,14 +29,14 @@
 #include <vtkStaticCellLocator.h>
 #include <vtkUnstructuredGrid.h>
 
-#include "core/base/random.hpp"
 #include "barycert/sampler.hpp"
+#include "core/base/random.hpp"
 #include "cube_mesh.hpp"
-#include "tests/mesh/whole_cells.hpp"
 #include "require.hpp"
+#include "tests/mesh/whole_cells.hpp"
+#include "tests/vtk_grid.hpp"
 #include "vtkBarycertLocator.h"
 #include "vtkBarycertProbe.h"
-#include "tests/vtk_grid.hpp"
 
 namespace {
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "core/base/random.hpp"
 #include "barycert/check.hpp"
 #include "barycert/mesh.hpp"
+#include "core/base/random.hpp"
 
 namespace barycert::testing {
 

@@ -1,8 +1,8 @@
 /// Small random meshes, good and bad ones, on a small lattice so that degeneracies abound.
 #pragma once
 
-#include "core/base/random.hpp"
 #include "barycert/mesh.hpp"
+#include "core/base/random.hpp"
 
 namespace barycert::testing {
 

@@ -6,9 +6,9 @@
 #include <filesystem>
 
 #include "barycert/io.hpp"
-#include "tests/mesh/curved_mesh.hpp"
 #include "process.hpp"
 #include "sample_meshes.hpp"
+#include "tests/mesh/curved_mesh.hpp"
 
 namespace barycert::cli_test {
 namespace {

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "barycert/io.hpp"
-#include "tests/mesh/curved_mesh.hpp"
 #include "process.hpp"
 #include "sample_meshes.hpp"
+#include "tests/mesh/curved_mesh.hpp"
 
 namespace barycert::cli_test {
 namespace {

@@ -9,9 +9,9 @@
 #include <thread>
 #include <vector>
 
-#include "core/base/random.hpp"
 #include "barycert/predicates.hpp"
 #include "barycert/weights.hpp"
+#include "core/base/random.hpp"
 #include "tests/core/environments.hpp"
 
 namespace barycert::testing_answers {

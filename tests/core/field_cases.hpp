@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "barycert/simplex.hpp"
 #include "core/base/random.hpp"
 #include "core/base/text.hpp"
-#include "barycert/simplex.hpp"
 #include "tests/exact/cases.hpp"
 #include "tests/exact/second_path.hpp"
 

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <optional>
 
-#include "core/exact_tier.hpp"
 #include "barycert/environment.hpp"
+#include "core/exact_tier.hpp"
 #include "tests/core/field_cases.hpp"
 #include "tests/core/rational.hpp"
 #include "tests/exact/cases.hpp"

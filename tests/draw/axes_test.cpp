@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "barycert/figure.hpp"
 #include "core/base/random.hpp"
 #include "core/base/text.hpp"
 #include "draw/colour_map.hpp"
 #include "draw/files.hpp"
-#include "barycert/figure.hpp"
 
 namespace barycert::draw {
 namespace {

@@ -13,9 +13,9 @@
 #include <optional>
 #include <vector>
 
+#include "barycert/figure.hpp"
 #include "core/base/random.hpp"
 #include "draw/colour_map.hpp"
-#include "barycert/figure.hpp"
 #include "tests/io/tetgen/mesh_files.hpp"
 
 namespace barycert::draw {

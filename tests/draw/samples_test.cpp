@@ -3,9 +3,9 @@
 
 #include <cmath>
 
+#include "barycert/scene.hpp"
 #include "core/base/random.hpp"
 #include "draw/raster/resolve.hpp"
-#include "barycert/scene.hpp"
 
 namespace barycert {
 namespace {

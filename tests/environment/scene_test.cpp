@@ -1,8 +1,8 @@
 // Clipping, textures, cameras and scenes: the same answers in every floating-point environment.
 #include "barycert/figure.hpp"
 
-#include "core/base/random.hpp"
 #include "barycert/raster.hpp"
+#include "core/base/random.hpp"
 #include "tests/core/same_everywhere.hpp"
 
 namespace barycert {

@@ -8,9 +8,9 @@
 #include <string>
 #include <string_view>
 
+#include "barycert/simplex.hpp"
 #include "core/base/random.hpp"
 #include "core/base/text.hpp"
-#include "barycert/simplex.hpp"
 
 namespace barycert::testing_cases {
 

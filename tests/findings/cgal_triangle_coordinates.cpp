@@ -10,8 +10,8 @@
 #include <array>
 #include <cstdio>
 
-#include "core/base/random.hpp"
 #include "barycert/predicates.hpp"
+#include "core/base/random.hpp"
 
 namespace {
 

@@ -13,11 +13,11 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "tests/audit/compared_weights.hpp"
 #include "barycert/audit.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/kernels.hpp"
 #include "barycert/oracle.hpp"
+#include "tests/audit/compared_weights.hpp"
 #include "variant.hpp"
 
 namespace barycert::flags {

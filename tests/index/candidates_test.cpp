@@ -5,10 +5,10 @@
 #include <cmath>
 #include <set>
 
+#include "barycert/predicates.hpp"
 #include "mesh/index/candidates.hpp"
 #include "mesh/index/facet_contact.hpp"
 #include "mesh/index/overlap.hpp"
-#include "barycert/predicates.hpp"
 #include "tests/check/meshes.hpp"
 #include "tests/sanitized.hpp"
 

@@ -13,9 +13,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/random.hpp"
-#include "barycert/environment.hpp"
 #include "audit/exact/cgal_variant.hpp"
+#include "barycert/environment.hpp"
+#include "core/base/random.hpp"
 #include "mesh/index/cell_index.hpp"
 #include "mesh/index/facet_contact.hpp"
 

@@ -9,9 +9,9 @@
 #include <cstring>
 #include <numbers>
 
-#include "mesh/locate/locator_data.hpp"
-#include "mesh/adjacency.hpp"
 #include "barycert/predicates.hpp"
+#include "mesh/adjacency.hpp"
+#include "mesh/locate/locator_data.hpp"
 #include "tests/check/judge.hpp"
 #include "tests/check/meshes.hpp"
 #include "tests/check/random_complexes.hpp"

@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include "barycert/jobs.hpp"
 #include "core/base/random.hpp"
 #include "core/base/text.hpp"
-#include "barycert/jobs.hpp"
 #include "tests/bench/generated_mesh.hpp"
 #include "tests/io/tetgen/mesh_files.hpp"
 

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <string>
 
-#include "core/base/random.hpp"
 #include "barycert/kernels.hpp"
+#include "core/base/random.hpp"
 #include "tests/kernels/exact_weights.hpp"
 
 namespace barycert {

@@ -10,8 +10,8 @@
 #include <string>
 #include <string_view>
 
-#include "core/base/random.hpp"
 #include "barycert/kernels.hpp"
+#include "core/base/random.hpp"
 #include "tests/kernels/breaking_cases.hpp"
 #include "tests/kernels/exact_weights.hpp"
 

@@ -10,8 +10,8 @@
 #include <immintrin.h>
 #endif
 
-#include "core/base/random.hpp"
 #include "barycert/weights.hpp"
+#include "core/base/random.hpp"
 #include "judge.hpp"
 
 namespace barycert::laws {

@@ -6,9 +6,9 @@
 
 #include <cmath>
 
+#include "barycert/locator.hpp"
 #include "core/base/random.hpp"
 #include "mesh/index/cell_index.hpp"
-#include "barycert/locator.hpp"
 
 namespace barycert::testing {
 namespace {

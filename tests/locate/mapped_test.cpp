@@ -4,8 +4,8 @@
 #include <cmath>
 #include <map>
 
-#include "mesh/pulling.hpp"
 #include "barycert/sampler.hpp"
+#include "mesh/pulling.hpp"
 #include "tests/mesh/curved_mesh.hpp"
 #include "tests/mesh/shaped_mesh.hpp"
 #include "tests/mesh/whole_cells.hpp"
@@ -259,8 +259,8 @@ TEST(MappedCells, L1V1CellsOfAllTypes) {
     }
 }
 
-// Hexahedra that no cut into tetrahedra fits, but whose maps are injective: nowhere as linear cells, told; as multilinear
-// ones where their maps have them.
+// Hexahedra that no cut into tetrahedra fits, but whose maps are injective: nowhere as linear cells, told; as
+// multilinear ones where their maps have them.
 TEST(MappedCells, L1V1CellsWithoutParts) {
     std::mt19937 random(4);
     std::size_t without = 0;

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include "core/base/text.hpp"
 #include "barycert/io.hpp"
 #include "barycert/locator.hpp"
+#include "core/base/text.hpp"
 #include "tests/check/meshes.hpp"
 #include "tests/limits.hpp"
 #include "tests/locate/judge.hpp"

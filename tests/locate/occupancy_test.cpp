@@ -6,9 +6,9 @@
 #include <cmath>
 #include <limits>
 
+#include "barycert/locator.hpp"
 #include "mesh/locate/lanes.hpp"
 #include "mesh/locate/locator_data.hpp"
-#include "barycert/locator.hpp"
 #include "tests/check/meshes.hpp"
 #include "tests/check/random_complexes.hpp"
 #include "tests/limits.hpp"

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "core/base/random.hpp"
 #include "barycert/mesh.hpp"
+#include "core/base/random.hpp"
 
 namespace barycert::testing {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "core/base/random.hpp"
 #include "barycert/mesh.hpp"
+#include "core/base/random.hpp"
 #include "tests/locate/judge.hpp"
 
 namespace barycert::testing {

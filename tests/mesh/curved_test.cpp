@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "barycert/check.hpp"
-#include "mesh/pulling.hpp"
 #include "curved_mesh.hpp"
+#include "mesh/pulling.hpp"
 
 namespace barycert::testing {
 namespace {

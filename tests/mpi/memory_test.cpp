@@ -12,8 +12,8 @@
 
 #include "tests/check/meshes.hpp"
 #include "tests/mpi/pieces.hpp"
-#include "vtk/distributed_probe.hpp"
 #include "tests/vtk/grids.hpp"
+#include "vtk/distributed_probe.hpp"
 #include "vtkBarycertProbe.h"
 
 namespace {

@@ -7,8 +7,8 @@
 #include <vtkSmartPointer.h>
 #include <vtkUnstructuredGrid.h>
 
-#include "core/base/random.hpp"
 #include "barycert/mesh.hpp"
+#include "core/base/random.hpp"
 
 class vtkPointData;
 

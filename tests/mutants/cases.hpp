@@ -6,9 +6,9 @@
 #include <type_traits>
 #include <vector>
 
-#include "core/base/random.hpp"
 #include "barycert/oracle.hpp"
 #include "barycert/simplex.hpp"
+#include "core/base/random.hpp"
 
 namespace barycert::mutants {
 

@@ -13,9 +13,9 @@
 #include <fstream>
 
 #include "barycert/audit.hpp"
-#include "core/base/random.hpp"
 #include "barycert/io.hpp"
 #include "cases.hpp"
+#include "core/base/random.hpp"
 
 using namespace barycert;
 using namespace barycert::mutants;

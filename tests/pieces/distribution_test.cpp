@@ -8,8 +8,8 @@
 #include <limits>
 #include <string>
 
-#include "core/base/random.hpp"
 #include "barycert/locator.hpp"
+#include "core/base/random.hpp"
 #include "tests/check/meshes.hpp"
 #include "tests/locate/points.hpp"
 #include "tests/pieces/threads.hpp"

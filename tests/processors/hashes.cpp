@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "core/base/random.hpp"
 #include "barycert/check.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/grid.hpp"
@@ -16,6 +15,7 @@
 #include "barycert/predicates.hpp"
 #include "barycert/sampler.hpp"
 #include "barycert/weights.hpp"
+#include "core/base/random.hpp"
 
 namespace barycert {
 namespace {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "core/base/random.hpp"
 #include "barycert/scene.hpp"
+#include "core/base/random.hpp"
 #include "tests/raster/rational.hpp"
 
 namespace barycert {

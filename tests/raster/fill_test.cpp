@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
-#include "core/base/random.hpp"
 #include "barycert/raster.hpp"
+#include "core/base/random.hpp"
 #include "tests/raster/judge.hpp"
 
 namespace barycert {

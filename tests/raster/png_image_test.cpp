@@ -6,8 +6,8 @@
 #include <cstdio>
 #include <cstring>
 
-#include "core/base/random.hpp"
 #include "barycert/raster.hpp"
+#include "core/base/random.hpp"
 #include "tests/io/tetgen/mesh_files.hpp"
 
 namespace barycert {

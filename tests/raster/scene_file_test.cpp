@@ -2,8 +2,8 @@
 // says is tested on the command line.
 #include <gtest/gtest.h>
 
-#include "core/base/random.hpp"
 #include "barycert/scene.hpp"
+#include "core/base/random.hpp"
 #include "tests/io/tetgen/mesh_files.hpp"
 
 namespace barycert {

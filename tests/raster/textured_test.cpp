@@ -9,10 +9,10 @@
 #include <span>
 #include <vector>
 
-#include "core/base/random.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/perspective.hpp"
 #include "barycert/raster.hpp"
+#include "core/base/random.hpp"
 
 namespace barycert {
 namespace {

@@ -11,13 +11,13 @@
 #include <string>
 #include <vector>
 
-#include "draw/axes.hpp"
+#include "app/report/check/check_pictures.hpp"
 #include "barycert/raster.hpp"
 #include "barycert/report.hpp"
-#include "app/report/check/check_pictures.hpp"
 #include "check_meshes.hpp"
-#include "tests/io/tetgen/mesh_files.hpp"
+#include "draw/axes.hpp"
 #include "lines.hpp"
+#include "tests/io/tetgen/mesh_files.hpp"
 #include "well_formed.hpp"
 
 namespace barycert::report_test {

@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
-#include "core/base/text.hpp"
 #include "barycert/report.hpp"
 #include "check_meshes.hpp"
+#include "core/base/text.hpp"
 #include "lines.hpp"
 #include "schema_tables.hpp"
 

@@ -11,9 +11,9 @@
 #include "barycert/audit_search.hpp"
 #include "barycert/report.hpp"
 #include "check_meshes.hpp"
-#include "tests/mesh/shaped_mesh.hpp"
 #include "schema_tables.hpp"
 #include "small_audit.hpp"
+#include "tests/mesh/shaped_mesh.hpp"
 
 namespace barycert::report_test {
 namespace {

@@ -9,9 +9,9 @@
 #include <filesystem>
 #include <fstream>
 
-#include "tests/audit/audit_helpers.hpp"
 #include "audit/recipes.hpp"
 #include "barycert/audit_report.hpp"
+#include "tests/audit/audit_helpers.hpp"
 
 namespace barycert::audit {
 namespace {

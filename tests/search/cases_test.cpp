@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "tests/audit/audit_helpers.hpp"
 #include "barycert/audit_search.hpp"
+#include "tests/audit/audit_helpers.hpp"
 
 namespace barycert::audit {
 namespace {

@@ -7,8 +7,8 @@
 
 #include <cmath>
 
-#include "tests/audit/audit_helpers.hpp"
 #include "audit/search/moves.hpp"
+#include "tests/audit/audit_helpers.hpp"
 
 namespace barycert::audit {
 namespace {

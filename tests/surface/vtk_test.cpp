@@ -15,8 +15,8 @@
 
 #include <cmath>
 
-#include "core/base/disjoint_sets.hpp"
 #include "barycert/surface.hpp"
+#include "core/base/disjoint_sets.hpp"
 #include "tests/check/meshes.hpp"
 
 namespace barycert::testing {

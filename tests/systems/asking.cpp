@@ -7,8 +7,8 @@
 #include <cstdio>
 #include <fstream>
 
-#include "core/base/text.hpp"
 #include "barycert/sampler.hpp"
+#include "core/base/text.hpp"
 #include "tests/mesh/whole_cells.hpp"
 #include "tests/scratch.hpp"
 #include "tests/systems/exchange.hpp"

@@ -8,8 +8,8 @@
 #include <map>
 #include <numeric>
 
-#include "core/base/random.hpp"
 #include "barycert/grid.hpp"
+#include "core/base/random.hpp"
 #include "mesh/pulling.hpp"
 #include "tests/mesh/whole_cells.hpp"
 #include "tests/systems/test_meshes.hpp"

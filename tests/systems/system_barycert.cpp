@@ -3,8 +3,8 @@
 #include <cstdio>
 #include <string>
 
-#include "io/formats.hpp"
 #include "barycert/sampler.hpp"
+#include "io/formats.hpp"
 #include "tests/systems/exchange.hpp"
 
 namespace {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <functional>
 
-#include "core/base/random.hpp"
 #include "barycert/grid.hpp"
 #include "barycert/io.hpp"
+#include "core/base/random.hpp"
 #include "tests/bench/generated_mesh.hpp"
 
 namespace barycert::systems {

@@ -6,10 +6,10 @@
 #include <limits>
 #include <optional>
 
-#include "core/base/random.hpp"
 #include "barycert/grid.hpp"
 #include "barycert/io.hpp"
 #include "barycert/verify.hpp"
+#include "core/base/random.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -22,10 +22,10 @@
 #include <functional>
 #include <limits>
 
-#include "core/base/random.hpp"
 #include "barycert/grid.hpp"
 #include "barycert/io.hpp"
 #include "barycert/jobs.hpp"
+#include "core/base/random.hpp"
 #include "tests/io/tetgen/mesh_files.hpp"
 #include "tests/locate/judge.hpp"
 #include "tests/locate/points.hpp"

@@ -12,8 +12,8 @@
 #include <vtkPoints.h>
 #include <vtkResampleWithDataSet.h>
 
-#include "vtk/exact_index.hpp"
 #include "tests/vtk/grids.hpp"
+#include "vtk/exact_index.hpp"
 #include "vtkBarycertLocator.h"
 
 namespace barycert::testing {

@@ -8,8 +8,8 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "files/output_file.hpp"
 #include "core/base/text.hpp"
+#include "files/output_file.hpp"
 
 namespace barycert::cli {
 namespace {

@@ -8,9 +8,9 @@
 #include <mutex>
 #include <new>
 
-#include "files/output_file.hpp"
-#include "command.hpp"
 #include "app/options/want_of_memory.hpp"
+#include "command.hpp"
+#include "files/output_file.hpp"
 
 namespace barycert::cli {
 namespace {

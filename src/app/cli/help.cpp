@@ -7,9 +7,9 @@
 #include <ctime>
 #include <filesystem>
 
+#include "app/options/command_table.hpp"
 #include "core/base/nearest_name.hpp"
 #include "options.hpp"
-#include "app/options/command_table.hpp"
 #ifdef BARYCERT_WITH_AUDIT
 #include "barycert/audit_search.hpp"
 #endif

@@ -11,13 +11,13 @@
 #include <iostream>
 #include <new>
 
-#include "files/input_file.hpp"
-#include "core/base/nearest_name.hpp"
-#include "files/output_file.hpp"
-#include "barycert/environment.hpp"
-#include "options.hpp"
 #include "app/options/want_of_memory.hpp"
 #include "app/tetgen/options.hpp"
+#include "barycert/environment.hpp"
+#include "core/base/nearest_name.hpp"
+#include "files/input_file.hpp"
+#include "files/output_file.hpp"
+#include "options.hpp"
 
 namespace barycert::cli {
 namespace {

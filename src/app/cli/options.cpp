@@ -1,7 +1,7 @@
 #include "options.hpp"
 
-#include "io/formats.hpp"
 #include "app/options/command_table.hpp"
+#include "io/formats.hpp"
 
 namespace barycert::cli {
 namespace {

@@ -6,10 +6,10 @@
 #include <concepts>
 #include <initializer_list>
 
-#include "core/base/text.hpp"
+#include "app/options/parser.hpp"
 #include "barycert/jobs.hpp"
 #include "command.hpp"
-#include "app/options/parser.hpp"
+#include "core/base/text.hpp"
 
 namespace barycert::cli {
 

@@ -4,8 +4,8 @@
 #include <chrono>
 #include <deque>
 
-#include "files/named_file.hpp"
 #include "barycert/report.hpp"
+#include "files/named_file.hpp"
 #include "options.hpp"
 
 namespace barycert::cli {

@@ -64,16 +64,16 @@ Result<PreparedAudit> prepare_audit(const AuditJob& job) try {
 Result<Witness> make_witness(const CaseJob& job, const std::vector<Kernel>& kernels) try {
     if (!job.reason.empty() && !finding_named(job.reason))
         return unknown_name("job.reason of a case that is generated", "a class of finding", job.reason, {},
-                       "leave it out to see the answer whatever it is");
+                            "leave it out to see the answer whatever it is");
     const std::vector<Family> families = choose_families({job.family}).value();
     if (families.size() != 1 || families.front().name != job.family)
         return unknown_name("job.family must name one family", "", job.family, names_of(all_families()),
-                       "`barycert families` lists them");
+                            "`barycert families` lists them");
     const Family& family = families.front();
     std::optional<Simplex> simplex = simplex_named(job.simplex);
     if (!job.simplex.empty() && !simplex)
         return unknown_name("unknown simplex", "segment, triangle, triangle3d or tetrahedron", job.simplex,
-                       {"segment", "triangle", "triangle3d", "tetrahedron"});
+                            {"segment", "triangle", "triangle3d", "tetrahedron"});
     Witness w;
     if (!job.kernel.empty()) {
         const auto k = std::ranges::find_if(kernels, [&](const Kernel& x) {
@@ -81,8 +81,8 @@ Result<Witness> make_witness(const CaseJob& job, const std::vector<Kernel>& kern
                    base::glob_match(job.kernel, x.name);
         });
         if (k == kernels.end())
-            return unknown_name("no kernel of that name for the cases of that family", "", job.kernel, names_of(catalogue()),
-                           "`barycert kernels` lists them");
+            return unknown_name("no kernel of that name for the cases of that family", "", job.kernel,
+                                names_of(catalogue()), "`barycert kernels` lists them");
         simplex = k->simplex;
         w.kernel = k->name;
     }

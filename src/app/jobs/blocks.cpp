@@ -3,10 +3,10 @@
 #include <atomic>
 #include <exception>
 
-#include "mesh/threads/arena.hpp"
-#include "barycert/environment.hpp"
 #include "app/jobs/stream.hpp"
+#include "barycert/environment.hpp"
 #include "mesh/locate/batch.hpp"
+#include "mesh/threads/arena.hpp"
 
 namespace barycert::jobs {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "app/jobs/job_files.hpp"
 #include "io/formats.hpp"
 #include "io/polygons/triangles.hpp"
-#include "app/jobs/job_files.hpp"
 
 namespace barycert {
 namespace {

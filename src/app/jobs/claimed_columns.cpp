@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/nearest_name.hpp"
 #include "app/jobs/job_files.hpp"
+#include "core/base/nearest_name.hpp"
 #include "mesh/sample/quantity/quantities.hpp"
 
 namespace barycert::jobs {

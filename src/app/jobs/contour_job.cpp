@@ -4,17 +4,17 @@
 
 #include <cmath>
 
-#include "mesh/threads/arena.hpp"
-#include "files/input_file.hpp"
-#include "core/base/strict_math.hpp"
-#include "core/base/vectors.hpp"
-#include "mesh/index/box_tree.hpp"
-#include "io/formats.hpp"
 #include "app/jobs/field_files.hpp"
 #include "app/jobs/job_files.hpp"
 #include "app/jobs/mesh_figure.hpp"
+#include "core/base/strict_math.hpp"
+#include "core/base/vectors.hpp"
+#include "files/input_file.hpp"
+#include "io/formats.hpp"
+#include "mesh/index/box_tree.hpp"
 #include "mesh/sample/quantity/quantities.hpp"
 #include "mesh/surface/parts.hpp"
+#include "mesh/threads/arena.hpp"
 
 namespace barycert {
 namespace {

@@ -2,10 +2,10 @@
 
 #include <filesystem>
 
+#include "app/jobs/job_files.hpp"
 #include "core/base/nearest_name.hpp"
 #include "io/formats.hpp"
 #include "io/vtk/numbers.hpp"
-#include "app/jobs/job_files.hpp"
 #include "mesh/columns.hpp"
 #include "mesh/part.hpp"
 #include "mesh/pulling.hpp"

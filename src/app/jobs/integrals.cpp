@@ -3,10 +3,10 @@
 #include <cmath>
 #include <tuple>
 
-#include "mesh/threads/arena.hpp"
-#include "mesh/check/stages.hpp"
 #include "core/scaled_double.hpp"
+#include "mesh/check/stages.hpp"
 #include "mesh/sample/quantity/quantities.hpp"
+#include "mesh/threads/arena.hpp"
 
 namespace barycert::jobs {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <set>
 
+#include "app/jobs/field_files.hpp"
 #include "core/base/workers.hpp"
 #include "io/formats.hpp"
-#include "app/jobs/field_files.hpp"
 
 namespace barycert::jobs {
 namespace {

@@ -6,9 +6,9 @@
 
 #include <chrono>
 
-#include "files/named_file.hpp"
-#include "core/base/text.hpp"
 #include "barycert/jobs.hpp"
+#include "core/base/text.hpp"
+#include "files/named_file.hpp"
 
 namespace barycert::jobs {
 

@@ -5,15 +5,15 @@
 #include <cmath>
 #include <set>
 
+#include "app/jobs/field_files.hpp"
+#include "app/jobs/job_files.hpp"
+#include "barycert/sampler.hpp"
 #include "core/base/range.hpp"
 #include "core/base/strict_math.hpp"
 #include "core/base/vectors.hpp"
 #include "io/formats.hpp"
-#include "app/jobs/field_files.hpp"
-#include "app/jobs/job_files.hpp"
 #include "mesh/part.hpp"
 #include "mesh/pulling.hpp"
-#include "barycert/sampler.hpp"
 #include "mesh/surface/edges.hpp"
 #include "mesh/surface/parts.hpp"
 

@@ -2,11 +2,11 @@
 
 #include <cmath>
 
+#include "barycert/environment.hpp"
 #include "core/base/range.hpp"
 #include "core/base/strict_math.hpp"
 #include "draw/axes.hpp"
 #include "draw/files.hpp"
-#include "barycert/environment.hpp"
 
 namespace barycert::jobs {
 namespace {

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <filesystem>
 
-#include "io/formats.hpp"
 #include "app/jobs/field_files.hpp"
 #include "app/jobs/job_files.hpp"
 #include "app/jobs/mesh_figure.hpp"
+#include "io/formats.hpp"
 
 namespace barycert {
 namespace {

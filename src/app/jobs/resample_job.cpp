@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
+#include "app/jobs/integrals.hpp"
 #include "core/base/finite.hpp"
 #include "files/output_file.hpp"
 #include "io/formats.hpp"
 #include "io/npy/npy.hpp"
 #include "io/vti/vti.hpp"
-#include "app/jobs/integrals.hpp"
 
 namespace barycert {
 namespace {

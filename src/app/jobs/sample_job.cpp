@@ -4,16 +4,16 @@
 
 #include <set>
 
-#include "mesh/threads/arena.hpp"
+#include "app/jobs/profile.hpp"
+#include "app/jobs/surface_words.hpp"
+#include "barycert/map.hpp"
+#include "barycert/surface_locator.hpp"
 #include "core/base/finite.hpp"
 #include "io/formats.hpp"
 #include "io/npz/weights_file.hpp"
 #include "io/polygons/triangles.hpp"
-#include "app/jobs/profile.hpp"
-#include "app/jobs/surface_words.hpp"
-#include "barycert/map.hpp"
 #include "mesh/sample/quantity/quantities.hpp"
-#include "barycert/surface_locator.hpp"
+#include "mesh/threads/arena.hpp"
 
 namespace barycert {
 namespace {

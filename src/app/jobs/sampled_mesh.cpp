@@ -2,14 +2,14 @@
 
 #include <fmt/format.h>
 
-#include "mesh/threads/arena.hpp"
 #include "core/base/finite.hpp"
-#include "mesh/locate/cells_at_points.hpp"
 #include "mesh/consistency.hpp"
+#include "mesh/locate/cells_at_points.hpp"
 #include "mesh/pulling.hpp"
 #include "mesh/sample/points/chunk_sampler.hpp"
 #include "mesh/sample/quantity/quantities.hpp"
 #include "mesh/surface/parts.hpp"
+#include "mesh/threads/arena.hpp"
 
 namespace barycert::jobs {
 namespace {

@@ -1,15 +1,16 @@
 /// The mesh of a job of sampling with its fields, what finds points in it, and what samples the fields.
 #pragma once
 
-#include "files/input_file.hpp"
 #include "app/jobs/field_files.hpp"
 #include "app/jobs/job_files.hpp"
+#include "files/input_file.hpp"
 #include "mesh/part.hpp"
 
 namespace barycert::jobs {
 
 /// Whether points are so few that no index of the mesh is worth its while: whether to look at each cell once instead
-/// (mesh/locate/cells_at_points.hpp), for so many points in so many cells. The turning point was measured: see NOTES.md.
+/// (mesh/locate/cells_at_points.hpp), for so many points in so many cells. The turning point was measured: see
+/// NOTES.md.
 constexpr bool needs_no_index(std::size_t points, std::size_t cells) {
     return points != 0 && cells >= 20'000 && points <= cells / 100;
 }

@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include "core/base/nearest_name.hpp"
-#include "io/formats.hpp"
 #include "app/jobs/field_files.hpp"
 #include "app/jobs/job_files.hpp"
+#include "core/base/nearest_name.hpp"
+#include "io/formats.hpp"
 
 namespace barycert::jobs {
 namespace {

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <set>
 
-#include "io/npz/weights_file.hpp"
-#include "mesh/locate/batch.hpp"
 #include "barycert/map.hpp"
+#include "io/npz/weights_file.hpp"
 #include "mesh/columns.hpp"
+#include "mesh/locate/batch.hpp"
 
 namespace barycert::jobs {
 namespace {

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/base/nearest_name.hpp"
-#include "io/formats.hpp"
 #include "app/jobs/claimed_columns.hpp"
 #include "app/jobs/stream.hpp"
+#include "core/base/nearest_name.hpp"
+#include "io/formats.hpp"
 #include "mesh/sample/quantity/quantities.hpp"
 
 namespace barycert {

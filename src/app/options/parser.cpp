@@ -4,9 +4,9 @@
 #include <cctype>
 #include <sstream>
 
+#include "app/options/command_table.hpp"
 #include "core/base/nearest_name.hpp"
 #include "core/base/text.hpp"
-#include "app/options/command_table.hpp"
 
 namespace barycert::cli {
 namespace {

@@ -1,8 +1,8 @@
-#include "files/json_text.hpp"
+#include "app/report/common/json.hpp"
+#include "barycert/report.hpp"
 #include "core/base/text.hpp"
 #include "draw/picture.hpp"
-#include "barycert/report.hpp"
-#include "app/report/common/json.hpp"
+#include "files/json_text.hpp"
 
 namespace barycert {
 

@@ -1,7 +1,7 @@
 // What a picture shows, and what a run of cutting did.
 
-#include "barycert/report.hpp"
 #include "app/report/common/document.hpp"
+#include "barycert/report.hpp"
 
 namespace barycert {
 

@@ -1,7 +1,7 @@
 // What a run of sampling did.
 
-#include "barycert/report.hpp"
 #include "app/report/common/document.hpp"
+#include "barycert/report.hpp"
 
 namespace barycert {
 

@@ -1,10 +1,10 @@
 // What a verification of results found.
 
+#include "app/report/common/document.hpp"
+#include "barycert/report.hpp"
 #include "core/base/decades.hpp"
 #include "draw/files.hpp"
 #include "draw/histogram.hpp"
-#include "barycert/report.hpp"
-#include "app/report/common/document.hpp"
 
 namespace barycert {
 

@@ -14,15 +14,15 @@
 #include <new>
 #include <sstream>
 
-#include "files/named_file.hpp"
-#include "files/output_file.hpp"
-#include "core/base/text.hpp"
+#include "app/options/want_of_memory.hpp"
 #include "barycert/check.hpp"
 #include "barycert/environment.hpp"
 #include "child.hpp"
+#include "core/base/text.hpp"
+#include "files/named_file.hpp"
+#include "files/output_file.hpp"
 #include "mesher.hpp"
 #include "options.hpp"
-#include "app/options/want_of_memory.hpp"
 
 namespace barycert {
 namespace {

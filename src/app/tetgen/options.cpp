@@ -10,9 +10,9 @@
 #include <limits>
 #include <new>
 
-#include "core/base/text.hpp"
-#include "barycert/io.hpp"
 #include "app/options/parser.hpp"
+#include "barycert/io.hpp"
+#include "core/base/text.hpp"
 
 namespace barycert {
 namespace {

@@ -14,8 +14,8 @@
 #include <boost/multiprecision/gmp.hpp>
 #include <tuple>
 
-#include "barycert/environment.hpp"
 #include "audit/exact/cgal_variant.hpp"
+#include "barycert/environment.hpp"
 #include "barycert/oracle.hpp"
 
 namespace barycert {

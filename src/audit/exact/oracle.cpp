@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "barycert/environment.hpp"
 #include "audit/exact/rounding.hpp"
+#include "barycert/environment.hpp"
 
 namespace barycert {
 

@@ -2,10 +2,10 @@
 #include <cmath>
 #include <limits>
 
-#include "core/base/text.hpp"
-#include "barycert/environment.hpp"
 #include "audit/kernels/registry.hpp"
+#include "barycert/environment.hpp"
 #include "barycert/weights.hpp"
+#include "core/base/text.hpp"
 
 namespace barycert {
 namespace kernels {

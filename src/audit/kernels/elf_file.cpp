@@ -5,8 +5,8 @@
 #include <bit>
 #include <cstring>
 
-#include "files/input_file.hpp"
 #include "audit/kernels/registry.hpp"
+#include "files/input_file.hpp"
 
 namespace barycert::kernels {
 namespace {

@@ -4,8 +4,8 @@
 #include <condition_variable>
 #include <mutex>
 
-#include "files/descriptor.hpp"
 #include "audit/kernels/channel.hpp"
+#include "files/descriptor.hpp"
 
 namespace barycert::kernels {
 

@@ -11,9 +11,9 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "files/descriptor.hpp"
-#include "barycert/environment.hpp"
 #include "audit/kernels/channel.hpp"
+#include "barycert/environment.hpp"
+#include "files/descriptor.hpp"
 
 namespace barycert::kernels {
 namespace {

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cstring>
 
-#include "barycert/environment.hpp"
 #include "audit/kernels/host.hpp"
 #include "audit/kernels/registry.hpp"
+#include "barycert/environment.hpp"
 
 namespace barycert {
 namespace {

@@ -1,8 +1,8 @@
 /// The catalogue as tables of formulas, one a file.
 #pragma once
 
-#include "barycert/kernels.hpp"
 #include "audit/kernels/variants.hpp"
+#include "barycert/kernels.hpp"
 
 namespace barycert::kernels {
 

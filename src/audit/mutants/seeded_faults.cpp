@@ -1,11 +1,11 @@
 // Faults seeded into the catalogue's formulas and into kernels that certify what they say.
 
-#include "barycert/audit_search.hpp"
-#include "core/base/ulp.hpp"
 #include "audit/kernels/perspective_formulas.hpp"
 #include "audit/kernels/space_formulas.hpp"
 #include "audit/kernels/tetrahedron_formulas.hpp"
+#include "barycert/audit_search.hpp"
 #include "barycert/weights.hpp"
+#include "core/base/ulp.hpp"
 
 namespace barycert::audit {
 namespace {

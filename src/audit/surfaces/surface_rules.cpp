@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "barycert/audit.hpp"
 #include "audit/kernels/space_formulas.hpp"
+#include "barycert/audit.hpp"
 #include "barycert/surface_locator.hpp"
 
 namespace barycert {

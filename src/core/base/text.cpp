@@ -32,10 +32,13 @@ std::string word_of_bytes(std::string_view text) {
     for (const char c : text.substr(0, end)) {
         const auto byte = static_cast<unsigned char>(c);
         const bool plain = byte >= 0x20 && byte < 0x7f && c != '\'' && c != '\\' && c != '-';
-        word += c == '%' ? "%%" : plain ? std::string(1, c) : "\\" + digits_of(byte, 8, 3);
+        if (plain)
+            word += c == '%' ? std::string(2, c) : std::string(1, c);
+        else
+            word.append("\\").append(digits_of(byte, 8, 3));
     }
     word += "')\"";
-    if (end != text.size()) word += "'" + std::string(text.substr(end)) + "'";
+    if (end != text.size()) word.append("'").append(text.substr(end)).append("'");
     return word;
 }
 
@@ -99,7 +102,7 @@ std::string printable(std::string_view text) {
         } else if (bytes == "\n" || bytes == "\t" || bytes == "\r") {
             out += bytes == "\n" ? "\\n" : bytes == "\t" ? "\\t" : "\\r";
         } else {
-            for (const char byte : bytes) out += "\\x" + digits_of(static_cast<unsigned char>(byte), 16, 2);
+            for (const char byte : bytes) out.append("\\x").append(digits_of(static_cast<unsigned char>(byte), 16, 2));
         }
     }
     return out;

@@ -9,8 +9,8 @@
 
 #include <algorithm>
 
-#include "core/isoparametric/shape_functions.hpp"
 #include "barycert/simplex.hpp"
+#include "core/isoparametric/shape_functions.hpp"
 
 namespace barycert::core::isoparametric {
 

@@ -1,8 +1,8 @@
 /// Rows of pixels, and the samples in them.
 #pragma once
 
-#include "core/base/strict_math.hpp"
 #include "barycert/perspective.hpp"
+#include "core/base/strict_math.hpp"
 #include "draw/raster/fill_rows.hpp"
 #include "draw/raster/parts.hpp"
 #include "draw/raster/resolve.hpp"

@@ -1,13 +1,13 @@
 #include <limits>
 #include <numbers>
 
+#include "barycert/environment.hpp"
+#include "barycert/scene.hpp"
 #include "core/base/finite.hpp"
 #include "core/base/strict_math.hpp"
 #include "core/base/text.hpp"
 #include "core/base/vectors.hpp"
 #include "core/scaled_double.hpp"
-#include "barycert/environment.hpp"
-#include "barycert/scene.hpp"
 
 namespace barycert {
 namespace {

@@ -7,10 +7,10 @@
 // difference of two products of differences, 4199 bits; times a double or a difference, and summed over three
 // vertices, that is less than 6302 bits, of 14704 that there are.
 
-#include "core/base/finite.hpp"
-#include "core/scaled_double.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/raster.hpp"
+#include "core/base/finite.hpp"
+#include "core/scaled_double.hpp"
 
 namespace barycert {
 namespace raster {

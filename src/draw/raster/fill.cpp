@@ -1,7 +1,7 @@
 #include <limits>
 
-#include "core/base/finite.hpp"
 #include "barycert/environment.hpp"
+#include "core/base/finite.hpp"
 #include "draw/raster/fill_rows.hpp"
 
 namespace barycert {

@@ -1,8 +1,8 @@
+#include "barycert/environment.hpp"
+#include "barycert/raster.hpp"
 #include "core/base/finite.hpp"
 #include "core/base/strict_math.hpp"
-#include "barycert/environment.hpp"
 #include "draw/png/png_file.hpp"
-#include "barycert/raster.hpp"
 #include "draw/raster/colour_bytes.hpp"
 
 namespace barycert {

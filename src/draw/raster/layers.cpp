@@ -5,11 +5,11 @@
 #include <cmath>
 #include <mutex>
 
-#include "mesh/threads/arena.hpp"
+#include "barycert/environment.hpp"
 #include "core/base/lists.hpp"
 #include "core/exact_tier.hpp"
-#include "barycert/environment.hpp"
 #include "draw/raster/band.hpp"
+#include "mesh/threads/arena.hpp"
 
 namespace barycert::raster {
 namespace {

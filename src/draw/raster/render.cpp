@@ -1,6 +1,6 @@
+#include "barycert/environment.hpp"
 #include "core/base/finite.hpp"
 #include "core/base/strict_math.hpp"
-#include "barycert/environment.hpp"
 #include "draw/raster/colour_bytes.hpp"
 #include "draw/raster/layers.hpp"
 

@@ -5,11 +5,11 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "files/input_file.hpp"
-#include "core/base/text.hpp"
 #include "barycert/environment.hpp"
-#include "draw/raster/colour_bytes.hpp"
 #include "barycert/scene.hpp"
+#include "core/base/text.hpp"
+#include "draw/raster/colour_bytes.hpp"
+#include "files/input_file.hpp"
 
 namespace barycert {
 namespace raster {

@@ -3,11 +3,11 @@
 
 #include <atomic>
 
-#include "mesh/threads/arena.hpp"
+#include "barycert/environment.hpp"
 #include "core/base/finite.hpp"
 #include "core/base/lists.hpp"
-#include "barycert/environment.hpp"
 #include "draw/raster/edge.hpp"
+#include "mesh/threads/arena.hpp"
 
 namespace barycert {
 namespace raster {

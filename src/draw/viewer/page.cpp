@@ -2,13 +2,13 @@
 
 #include <cstring>
 
+#include "barycert/environment.hpp"
+#include "draw/figure_values.hpp"
+#include "draw/view.hpp"
+#include "files/deflate.hpp"
 #include "files/embedded.hpp"
 #include "files/json_text.hpp"
 #include "files/output_file.hpp"
-#include "draw/figure_values.hpp"
-#include "draw/view.hpp"
-#include "barycert/environment.hpp"
-#include "files/deflate.hpp"
 #include "mesh/part.hpp"
 
 BARYCERT_EMBED(barycert_viewer, BARYCERT_VIEWER);

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
-#include "files/input_file.hpp"
-#include "files/output_file.hpp"
+#include "barycert/environment.hpp"
 #include "core/base/text.hpp"
 #include "core/isoparametric/shape_functions.hpp"
-#include "barycert/environment.hpp"
+#include "files/input_file.hpp"
+#include "files/output_file.hpp"
 #include "mesh/pulling.hpp"
 #include "mesh/sample/map/map_format.hpp"
 

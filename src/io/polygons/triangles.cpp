@@ -70,8 +70,9 @@ Surface surface_of(Polygons polygons, const std::string& path) {
 
 Surface surface_of(const Plc& plc, const std::string& path) {
     surface::PlcTriangles cut = surface::triangles_of(plc);
-    const auto uncut = std::ranges::count_if(
-        cut.faults, [](const surface::PlcTriangles::Fault& f) { return f.fault.kind != surface::FacetFault::Kind::on_segment; });
+    const auto uncut = std::ranges::count_if(cut.faults, [](const surface::PlcTriangles::Fault& f) {
+        return f.fault.kind != surface::FacetFault::Kind::on_segment;
+    });
     note_uncut(cut.surface, static_cast<std::size_t>(uncut), "facets", path);
     return std::move(cut.surface);
 }

@@ -1,5 +1,5 @@
-#include "core/base/text.hpp"
 #include "barycert/environment.hpp"
+#include "core/base/text.hpp"
 #include "io/vti/vti.hpp"
 
 namespace barycert::io {

@@ -3,8 +3,8 @@
 #include <charconv>
 #include <set>
 
-#include "files/output_file.hpp"
 #include "core/base/text.hpp"
+#include "files/output_file.hpp"
 #include "io/parallel.hpp"
 #include "io/vtk/packed.hpp"
 

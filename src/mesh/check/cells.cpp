@@ -1,11 +1,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "barycert/weights.hpp"
 #include "core/base/strict_math.hpp"
 #include "core/base/vectors.hpp"
 #include "mesh/check/stages.hpp"
 #include "mesh/pulling.hpp"
-#include "barycert/weights.hpp"
 
 namespace barycert::check {
 namespace {

@@ -2,8 +2,8 @@
 #include <cstdlib>
 
 #include "core/base/vectors.hpp"
-#include "mesh/check/surface/parts.hpp"
 #include "core/whole_points.hpp"
+#include "mesh/check/surface/parts.hpp"
 
 namespace barycert::check {
 namespace {

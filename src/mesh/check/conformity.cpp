@@ -13,8 +13,8 @@
 // their centroids lie, have in common with it. Facets without area (single segments) are left out.
 #include <iterator>
 
-#include "mesh/check/plc_facet.hpp"
 #include "mesh/adjacency.hpp"
+#include "mesh/check/plc_facet.hpp"
 
 namespace barycert::check {
 namespace {

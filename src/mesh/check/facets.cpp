@@ -1,10 +1,10 @@
 #include <tbb/parallel_sort.h>
 
 #include "core/base/lists.hpp"
-#include "mesh/check/stages.hpp"
-#include "mesh/index/proof.hpp"
 #include "mesh/adjacency.hpp"
+#include "mesh/check/stages.hpp"
 #include "mesh/consistency.hpp"
+#include "mesh/index/proof.hpp"
 
 namespace barycert::check {
 namespace {

@@ -2,8 +2,8 @@
 
 #include "core/base/disjoint_sets.hpp"
 #include "core/base/text.hpp"
-#include "mesh/check/stages.hpp"
 #include "mesh/adjacency.hpp"
+#include "mesh/check/stages.hpp"
 #include "mesh/columns.hpp"
 #include "mesh/consistency.hpp"
 #include "mesh/mid_edges.hpp"

@@ -1,8 +1,8 @@
 // The isoparametric maps of cells: where their Jacobians are positive, or not, and whether they agree at facets.
 #include <cmath>
 
-#include "mesh/check/stages.hpp"
 #include "mesh/cell_maps.hpp"
+#include "mesh/check/stages.hpp"
 #include "mesh/consistency.hpp"
 #include "mesh/pulling.hpp"
 #include "mesh/warped_sides.hpp"

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <tuple>
 
-#include "core/base/finite.hpp"
 #include "barycert/check.hpp"
 #include "barycert/environment.hpp"
+#include "core/base/finite.hpp"
 
 namespace barycert {
 

@@ -3,14 +3,14 @@
 
 #include <atomic>
 
-#include "mesh/threads/arena.hpp"
 #include "barycert/check.hpp"
 #include "barycert/environment.hpp"
+#include "barycert/predicates.hpp"
 #include "mesh/index/box_tree.hpp"
 #include "mesh/index/exact_volumes.hpp"
 #include "mesh/index/facet_contact.hpp"
 #include "mesh/index/overlap.hpp"
-#include "barycert/predicates.hpp"
+#include "mesh/threads/arena.hpp"
 
 namespace barycert::check {
 
@@ -204,7 +204,8 @@ void check_nodes(Checked& c);
 void check_cells(Checked& c);
 
 /// How cells meet at their facets, and which are the boundary. True if the cells partition a domain, proved by the
-/// index (mesh/index/proof.hpp) in less time than the search takes, which finds duplicate_cell, overfull_facet, same_side.
+/// index (mesh/index/proof.hpp) in less time than the search takes, which finds duplicate_cell, overfull_facet,
+/// same_side.
 bool check_facets(Checked& c);
 
 /// The boundary as a complex: ridges, pieces, cavities, tunnels. Returns one of the boundary facets of each piece.

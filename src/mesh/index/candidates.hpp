@@ -13,8 +13,8 @@
 
 #include <optional>
 
-#include "mesh/index/box_tree.hpp"
 #include "barycert/mesh.hpp"
+#include "mesh/index/box_tree.hpp"
 
 namespace barycert::index {
 

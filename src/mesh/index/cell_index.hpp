@@ -3,10 +3,10 @@
 
 #include <concepts>
 
-#include "core/base/large_pages.hpp"
-#include "mesh/index/bins.hpp"
 #include "barycert/mesh.hpp"
 #include "barycert/simplex.hpp"
+#include "core/base/large_pages.hpp"
+#include "mesh/index/bins.hpp"
 
 namespace barycert::index {
 

@@ -4,9 +4,9 @@
 #include <bit>
 #include <functional>
 
-#include "mesh/threads/arena.hpp"
 #include "mesh/index/cell_index.hpp"
 #include "mesh/index/facet_contact.hpp"
+#include "mesh/threads/arena.hpp"
 
 namespace barycert::index {
 

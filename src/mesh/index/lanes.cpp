@@ -1,6 +1,6 @@
+#include "barycert/predicates.hpp"
 #include "mesh/index/cell_tree.hpp"
 #include "mesh/index/facet_links.hpp"
-#include "barycert/predicates.hpp"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "mesh/index/lanes.cpp"

@@ -1,11 +1,11 @@
 /// Open facets, as places in space: which conflict, which belong to one sheet (doc/theorem.md).
 #pragma once
 
+#include "barycert/predicates.hpp"
 #include "mesh/index/candidates.hpp"
 #include "mesh/index/facet_contact.hpp"
 #include "mesh/index/facet_links.hpp"
 #include "mesh/index/ridges.hpp"
-#include "barycert/predicates.hpp"
 
 namespace barycert::index {
 

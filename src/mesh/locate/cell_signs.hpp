@@ -3,9 +3,9 @@
 
 #include <cmath>
 
+#include "barycert/predicates.hpp"
 #include "core/numerators-inl.hpp"
 #include "mesh/locate/names.hpp"
-#include "barycert/predicates.hpp"
 
 namespace barycert::locate {
 

@@ -1,6 +1,6 @@
 #include "barycert/environment.hpp"
-#include "mesh/locate/batch.hpp"
 #include "mesh/consistency.hpp"
+#include "mesh/locate/batch.hpp"
 
 namespace barycert {
 Locator::Locator(std::unique_ptr<locate::LocatorData> data)

@@ -4,10 +4,10 @@
 #include <cstdlib>
 #include <initializer_list>
 
+#include "barycert/weights.hpp"
 #include "core/base/vectors.hpp"
 #include "core/whole_points.hpp"
 #include "mesh/index/facet_contact.hpp"
-#include "barycert/weights.hpp"
 
 namespace barycert::locate {
 namespace {

@@ -1,8 +1,8 @@
 // Triangles in space without an area: segments and points.
 
+#include "barycert/predicates.hpp"
 #include "mesh/index/facet_contact.hpp"
 #include "mesh/locate/near_feature.hpp"
-#include "barycert/predicates.hpp"
 
 namespace barycert::locate {
 

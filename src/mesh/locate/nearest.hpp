@@ -1,10 +1,10 @@
 /// The nearest point of a mesh: boxes of cells to find it from anywhere, and the search, with its work counted.
 #pragma once
 
+#include "barycert/locator.hpp"
 #include "mesh/index/box_tree.hpp"
 #include "mesh/locate/names.hpp"
 #include "mesh/locate/near_feature.hpp"
-#include "barycert/locator.hpp"
 
 namespace barycert::locate {
 

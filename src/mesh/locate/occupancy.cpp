@@ -3,8 +3,8 @@
 #include <atomic>
 #include <cmath>
 
-#include "mesh/threads/arena.hpp"
 #include "core/numerators-inl.hpp"
+#include "mesh/threads/arena.hpp"
 
 namespace barycert::locate {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <numeric>
 
-#include "core/isoparametric/inverse.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/grid.hpp"
+#include "core/isoparametric/inverse.hpp"
 #include "mesh/locate/locator_data.hpp"
 #include "mesh/locate/mapped/nearest_side.hpp"
 #include "mesh/sample/points/near_piece.hpp"

@@ -1,10 +1,10 @@
 /// A piece of a mesh as it lies in space, and what all pieces of the mesh are taken for.
 #pragma once
 
+#include "barycert/locator.hpp"
 #include "core/base/finite.hpp"
 #include "core/base/strict_math.hpp"
 #include "mesh/index/box_tree.hpp"
-#include "barycert/locator.hpp"
 #include "mesh/pieces/exchange.hpp"
 #include "mesh/surface/facet_triangles.hpp"
 

@@ -6,8 +6,8 @@
 #include <unordered_map>
 #include <unordered_set>
 
-#include "core/base/vectors.hpp"
 #include "barycert/predicates.hpp"
+#include "core/base/vectors.hpp"
 
 namespace barycert::surface {
 namespace {

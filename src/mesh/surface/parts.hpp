@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
-#include "mesh/threads/arena.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/predicates.hpp"
 #include "barycert/surface.hpp"
+#include "mesh/threads/arena.hpp"
 
 namespace barycert::surface {
 

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <tuple>
 
+#include "barycert/verify.hpp"
 #include "core/base/decades.hpp"
 #include "core/base/strict_math.hpp"
 #include "core/base/ulp.hpp"
-#include "barycert/verify.hpp"
 
 namespace barycert::verify {
 

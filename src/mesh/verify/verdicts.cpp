@@ -1,5 +1,5 @@
-#include "core/base/random.hpp"
 #include "barycert/environment.hpp"
+#include "core/base/random.hpp"
 #include "mesh/locate/batch.hpp"
 #include "mesh/sample/points/sampler_data.hpp"
 #include "mesh/verify/errors.hpp"

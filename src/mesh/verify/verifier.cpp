@@ -1,13 +1,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mesh/threads/arena.hpp"
-#include "core/base/finite.hpp"
 #include "barycert/environment.hpp"
+#include "barycert/verify.hpp"
+#include "core/base/finite.hpp"
 #include "mesh/locate/batch.hpp"
 #include "mesh/sample/points/sampler_data.hpp"
 #include "mesh/sample/quantity/quantities.hpp"
-#include "barycert/verify.hpp"
+#include "mesh/threads/arena.hpp"
 
 namespace barycert {
 namespace {

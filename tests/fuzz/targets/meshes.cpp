@@ -5,10 +5,10 @@
 
 #include "barycert/check.hpp"
 #include "barycert/grid.hpp"
-#include "mesh/locate/locator_data.hpp"
 #include "barycert/locator.hpp"
 #include "barycert/oracle.hpp"
 #include "barycert/sampler.hpp"
+#include "mesh/locate/locator_data.hpp"
 #include "tests/check/judge.hpp"
 #include "tests/fuzz/drawn.hpp"
 #include "tests/fuzz/same.hpp"

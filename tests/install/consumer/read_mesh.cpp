@@ -14,7 +14,7 @@ int main(int argc, char** argv) {
     }
     const double vertices[] = {0, 0, 1, 0, 0, 1}, point[] = {0.25, 0.5};
     const barycert::Weights w = barycert::barycentric_weights(barycert::Simplex::triangle, vertices, point).value();
-    std::printf("%d dimensions, %s, weights %g %g %g\n", mesh->dimension,
-                mesh->cell_count() > 0 ? "cells" : "no cells", w.weights[0], w.weights[1], w.weights[2]);
+    std::printf("%d dimensions, %s, weights %g %g %g\n", mesh->dimension, mesh->cell_count() > 0 ? "cells" : "no cells",
+                w.weights[0], w.weights[1], w.weights[2]);
     return 0;
 }

@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
+#include "barycert/io.hpp"
 #include "core/base/random.hpp"
 #include "core/base/text.hpp"
-#include "barycert/io.hpp"
 #include "tests/io/tetgen/mesh_files.hpp"
 
 namespace barycert::testing {

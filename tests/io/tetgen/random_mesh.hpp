@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "core/base/random.hpp"
 #include "barycert/mesh.hpp"
+#include "core/base/random.hpp"
 #include "mesh/mid_edges.hpp"
 
 namespace barycert::testing {

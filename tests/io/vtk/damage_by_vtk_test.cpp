@@ -1,8 +1,8 @@
 /// Files that VTK wrote, damaged: a mesh or an error, never a crash, nothing printed.
 #include <vtkXMLUnstructuredGridWriter.h>
 
-#include "core/base/random.hpp"
 #include "barycert/io.hpp"
+#include "core/base/random.hpp"
 #include "tests/io/vtk/good_files.hpp"
 #include "tests/io/vtk/mixed_grid.hpp"
 #include "tests/io/vtk/vtk_files.hpp"

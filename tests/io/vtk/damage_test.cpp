@@ -3,8 +3,8 @@
 
 #include <chrono>
 
-#include "core/base/random.hpp"
 #include "barycert/io.hpp"
+#include "core/base/random.hpp"
 #include "io/vtk/packed.hpp"
 #include "tests/io/tetgen/mesh_files.hpp"
 #include "tests/io/vtk/mesh_notes.hpp"

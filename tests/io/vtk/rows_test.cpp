@@ -3,8 +3,8 @@
 
 #include "tests/io/vtk/mesh_notes.hpp"
 
-#include "files/spool.hpp"
 #include "barycert/io.hpp"
+#include "files/spool.hpp"
 
 namespace barycert::testing {
 namespace {

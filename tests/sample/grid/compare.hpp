@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "core/base/random.hpp"
 #include "barycert/grid.hpp"
 #include "barycert/mesh.hpp"
+#include "core/base/random.hpp"
 #include "tests/check/meshes.hpp"
 
 namespace barycert::testing {

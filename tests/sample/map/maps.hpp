@@ -8,8 +8,8 @@
 
 #include <gtest/gtest.h>
 
-#include "core/base/random.hpp"
 #include "barycert/map.hpp"
+#include "core/base/random.hpp"
 #include "tests/io/tetgen/mesh_files.hpp"
 #include "tests/io/tetgen/random_mesh.hpp"
 

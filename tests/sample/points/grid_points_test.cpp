@@ -5,13 +5,13 @@
 #include <cmath>
 #include <limits>
 
-#include "core/base/random.hpp"
 #include "barycert/check.hpp"
 #include "barycert/grid.hpp"
 #include "barycert/io.hpp"
-#include "mesh/pulling.hpp"
 #include "barycert/surface.hpp"
 #include "barycert/verify.hpp"
+#include "core/base/random.hpp"
+#include "mesh/pulling.hpp"
 #include "tests/sample/points/rows.hpp"
 #include "tests/sample/quantity/quantities.hpp"
 

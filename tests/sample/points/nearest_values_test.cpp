@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "core/base/text.hpp"
 #include "barycert/io.hpp"
+#include "core/base/text.hpp"
 #include "tests/check/meshes.hpp"
 #include "tests/locate/points.hpp"
 #include "tests/sample/points/rows.hpp"

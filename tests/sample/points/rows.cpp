@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <limits>
 
-#include "core/base/text.hpp"
 #include "barycert/oracle.hpp"
+#include "core/base/text.hpp"
 #include "tests/locate/judge.hpp"
 #include "tests/locate/points.hpp"
 

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "core/base/random.hpp"
 #include "barycert/locator.hpp"
 #include "barycert/mesh.hpp"
 #include "barycert/sampler.hpp"
+#include "core/base/random.hpp"
 
 namespace barycert::testing {
 

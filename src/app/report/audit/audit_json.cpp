@@ -1,8 +1,8 @@
 // What programs read of audits, of the catalogue and of the families; what systems that run audits are told.
 
+#include "app/report/audit/audit_words.hpp"
 #include "audit/asking.hpp"
 #include "audit/json_members.hpp"
-#include "app/report/audit/audit_words.hpp"
 
 namespace barycert {
 

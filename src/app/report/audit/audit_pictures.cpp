@@ -1,10 +1,10 @@
 // Accuracy against speed, sizes of errors, signs and maps of meshes, as markup of the audit's page.
 
+#include "app/report/audit/audit_words.hpp"
 #include "core/base/decades.hpp"
 #include "draw/axes.hpp"
 #include "draw/colour_map.hpp"
 #include "draw/png/png_file.hpp"
-#include "app/report/audit/audit_words.hpp"
 
 namespace barycert::report {
 namespace {

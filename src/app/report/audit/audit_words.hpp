@@ -1,8 +1,8 @@
 /// The words and the pictures of reports on audited kernels.
 #pragma once
 
-#include "barycert/audit_report.hpp"
 #include "app/report/common/document.hpp"
+#include "barycert/audit_report.hpp"
 
 namespace barycert::report {
 

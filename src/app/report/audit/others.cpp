@@ -1,7 +1,7 @@
 // What `./run flags` and `./run systems` measured: read, and as tables that sort.
 
-#include "audit/json_members.hpp"
 #include "app/report/audit/audit_words.hpp"
+#include "audit/json_members.hpp"
 
 namespace barycert {
 

@@ -1,7 +1,7 @@
 // A worst-case search, and the mutation score of the families.
 
-#include "audit/json_members.hpp"
 #include "app/report/audit/audit_words.hpp"
+#include "audit/json_members.hpp"
 
 namespace barycert {
 

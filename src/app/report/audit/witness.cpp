@@ -1,7 +1,7 @@
 // One witness, with the exact answer and those of kernels; the catalogue and the families.
 
-#include "barycert/audit_report.hpp"
 #include "app/report/common/document.hpp"
+#include "barycert/audit_report.hpp"
 
 namespace barycert {
 

@@ -3,8 +3,8 @@
 #include <Eigen/Geometry>
 #include <limits>
 
-#include "core/base/finite.hpp"
 #include "app/report/check/check_pictures.hpp"
+#include "core/base/finite.hpp"
 
 namespace barycert::report {
 namespace {

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
-#include "draw/files.hpp"
-#include "draw/histogram.hpp"
-#include "barycert/report.hpp"
 #include "app/report/check/check_pictures.hpp"
 #include "app/report/check/check_words.hpp"
+#include "barycert/report.hpp"
+#include "draw/files.hpp"
+#include "draw/histogram.hpp"
 
 namespace barycert::report {
 namespace {

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <deque>
 
-#include "draw/layout.hpp"
-#include "mesh/part.hpp"
 #include "app/report/check/check_pictures.hpp"
 #include "app/report/check/check_words.hpp"
-#include "mesh/surface/edges.hpp"
+#include "draw/layout.hpp"
 #include "draw/viewer/page.hpp"
+#include "mesh/part.hpp"
+#include "mesh/surface/edges.hpp"
 
 namespace barycert::report {
 namespace {

@@ -1,8 +1,8 @@
 /// The words of reports on meshes.
 #pragma once
 
-#include "barycert/report.hpp"
 #include "app/report/common/terminal_text.hpp"
+#include "barycert/report.hpp"
 
 namespace barycert::report {
 

@@ -6,10 +6,10 @@
 
 #include <initializer_list>
 
-#include "files/json_text.hpp"
-#include "draw/picture.hpp"
 #include "app/report/common/json.hpp"
 #include "app/report/common/terminal_text.hpp"
+#include "draw/picture.hpp"
+#include "files/json_text.hpp"
 
 namespace barycert::report {
 

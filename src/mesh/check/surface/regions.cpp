@@ -1,8 +1,8 @@
 #include <cmath>
 #include <map>
 
-#include "mesh/check/surface/parts.hpp"
 #include "core/whole_points.hpp"
+#include "mesh/check/surface/parts.hpp"
 #include "mesh/index/crossing.hpp"
 
 namespace barycert::check {

@@ -1,8 +1,8 @@
 #include "mesh/locate/mapped/mapped_cells.hpp"
 
 #include "core/base/finite.hpp"
-#include "mesh/locate/mapped/boundary.hpp"
 #include "mesh/adjacency.hpp"
+#include "mesh/locate/mapped/boundary.hpp"
 #include "mesh/mid_edges.hpp"
 #include "mesh/pulling.hpp"
 

@@ -21,15 +21,15 @@
 
 #include <unordered_map>
 
+#include "barycert/locator.hpp"
+#include "barycert/predicates.hpp"
 #include "core/base/random.hpp"
 #include "core/isoparametric/lanes.hpp"
+#include "mesh/cell_maps.hpp"
 #include "mesh/index/box_tree.hpp"
 #include "mesh/locate/lanes.hpp"
 #include "mesh/locate/lazy.hpp"
-#include "barycert/locator.hpp"
-#include "mesh/cell_maps.hpp"
 #include "mesh/warped_sides.hpp"
-#include "barycert/predicates.hpp"
 
 namespace barycert::locate {
 

@@ -10,9 +10,9 @@
 /// that with the lowest nodes, then with the lowest parameters.
 #pragma once
 
+#include "barycert/locator.hpp"
 #include "core/isoparametric/near_patch.hpp"
 #include "mesh/locate/mapped/cell_sides.hpp"
-#include "barycert/locator.hpp"
 
 namespace barycert::locate {
 

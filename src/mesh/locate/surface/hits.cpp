@@ -1,9 +1,9 @@
 // Where a segment meets the triangles, in their exact order along it.
 
+#include "barycert/predicates.hpp"
 #include "core/base/vectors.hpp"
 #include "core/whole_points.hpp"
 #include "mesh/locate/surface/surface_data.hpp"
-#include "barycert/predicates.hpp"
 
 namespace barycert::locate {
 namespace {

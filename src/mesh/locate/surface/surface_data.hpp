@@ -1,11 +1,11 @@
 /// All that a SurfaceLocator keeps.
 #pragma once
 
+#include "barycert/surface_locator.hpp"
 #include "mesh/index/cell_tree.hpp"
 #include "mesh/index/triangles.hpp"
 #include "mesh/locate/lazy.hpp"
 #include "mesh/locate/nearest.hpp"
-#include "barycert/surface_locator.hpp"
 
 namespace barycert::locate {
 

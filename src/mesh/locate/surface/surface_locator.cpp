@@ -1,7 +1,7 @@
 #include "barycert/environment.hpp"
+#include "barycert/weights.hpp"
 #include "mesh/locate/batch.hpp"
 #include "mesh/locate/surface/surface_data.hpp"
-#include "barycert/weights.hpp"
 
 namespace barycert {
 namespace locate {

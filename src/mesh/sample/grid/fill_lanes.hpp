@@ -1,8 +1,8 @@
 /// Cells fill in the points of a grid that they hold, on SIMD lanes.
 #pragma once
 
-#include "mesh/sample/points/value_lanes.hpp"
 #include "barycert/table.hpp"
+#include "mesh/sample/points/value_lanes.hpp"
 
 namespace barycert::sample {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "barycert/environment.hpp"
 #include "core/base/strict_math.hpp"
 #include "core/base/text.hpp"
-#include "barycert/environment.hpp"
 #include "mesh/index/box_tree.hpp"
 
 namespace barycert {

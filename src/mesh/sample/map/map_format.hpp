@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstring>
 
-#include "core/base/random.hpp"
 #include "barycert/table.hpp"
+#include "core/base/random.hpp"
 
 namespace barycert::sample {
 

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "mesh/locate/near_feature.hpp"
 #include "barycert/locator.hpp"
 #include "barycert/weights.hpp"
+#include "mesh/locate/near_feature.hpp"
 
 namespace barycert::sample {
 

@@ -1,7 +1,7 @@
-#include "core/base/finite.hpp"
 #include "barycert/environment.hpp"
-#include "mesh/locate/batch.hpp"
+#include "core/base/finite.hpp"
 #include "mesh/consistency.hpp"
+#include "mesh/locate/batch.hpp"
 #include "mesh/sample/points/chunk_sampler.hpp"
 #include "mesh/sample/quantity/quantities.hpp"
 

@@ -3,9 +3,9 @@
 
 #include <deque>
 
+#include "barycert/sampler.hpp"
 #include "mesh/locate/locator_data.hpp"
 #include "mesh/sample/points/value_lanes.hpp"
-#include "barycert/sampler.hpp"
 
 namespace barycert::sample {
 

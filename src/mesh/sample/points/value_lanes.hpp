@@ -1,9 +1,9 @@
 /// Values of many points in their cells at once, on SIMD lanes.
 #pragma once
 
+#include "barycert/weights.hpp"
 #include "mesh/locate/lanes.hpp"
 #include "mesh/locate/names.hpp"
-#include "barycert/weights.hpp"
 
 namespace barycert::sample {
 

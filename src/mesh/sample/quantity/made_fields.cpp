@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mesh/threads/arena.hpp"
+#include "barycert/environment.hpp"
 #include "core/base/strict_math.hpp"
 #include "core/base/text.hpp"
-#include "barycert/environment.hpp"
 #include "mesh/consistency.hpp"
+#include "mesh/threads/arena.hpp"
 
 namespace barycert::sample {
 namespace {

@@ -1,8 +1,8 @@
 /// Means over the cells of many nodes at once, on SIMD lanes: correctly rounded where that is certain.
 #pragma once
 
-#include "core/base/lists.hpp"
 #include "barycert/mesh.hpp"
+#include "core/base/lists.hpp"
 
 namespace barycert::sample {
 

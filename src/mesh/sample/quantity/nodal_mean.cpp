@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mesh/threads/arena.hpp"
+#include "barycert/environment.hpp"
 #include "core/numerators-inl.hpp"
 #include "core/scaled_double.hpp"
-#include "barycert/environment.hpp"
 #include "mesh/sample/quantity/mean_lanes.hpp"
+#include "mesh/threads/arena.hpp"
 
 namespace barycert::sample {
 namespace {

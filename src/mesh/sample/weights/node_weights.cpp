@@ -1,7 +1,7 @@
 #include "barycert/sampler.hpp"
 
-#include "core/base/finite.hpp"
 #include "barycert/environment.hpp"
+#include "core/base/finite.hpp"
 #include "mesh/locate/batch.hpp"
 #include "mesh/locate/mapped/nearest_side.hpp"
 #include "mesh/sample/points/near_piece.hpp"

@@ -1,0 +1,26 @@
+// barycert-audit reads the files of TetGen and Triangle alone: these stand for those of barycert::io, which it does not
+// link.
+
+#include "barycert/io.hpp"
+#include "files/suffix.hpp"
+
+namespace barycert {
+
+std::vector<std::string> mesh_files(const std::string& path) {
+    return tetgen_files(path);
+}
+
+Result<Mesh> read_mesh(const std::string& path, const ReadOptions& options) {
+    const std::string suffix = base::lower(base::suffix_of(std::string(base::without_gz(path))));
+    const std::vector<std::string> files = tetgen_files(path);
+    const bool other =
+        base::file_exists(path) && !base::has_one_of(path, {".node", ".ele"}) && !base::file_exists(files.front());
+    if (other)
+        return file_error(
+            path, "barycert-audit reads meshes of TetGen and Triangle alone", ".node and .ele",
+            suffix.empty() ? "no suffix" : '"' + suffix + '"',
+            "`barycert audit` reads all formats; among the sources, build it: ./run barycert check " + path);
+    return read_tetgen(path, options);
+}
+
+}  // namespace barycert
