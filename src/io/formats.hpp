@@ -210,6 +210,13 @@ struct PointTable : PointData {
     bool of_nodes = false;            ///< of a .node file
 };
 
+/// The nodes of a .node file as points, and the name of the file that was read.
+struct NodeTable {
+    PointTable points;
+    std::string file;
+};
+NodeTable read_node_table(const std::string& path, int dimension, const PointOptions& options);
+
 /// As open_points chooses among columns: the coordinates x, y[, z]; NAME, or NAME.0, NAME.1, ... of each field; labels.
 Source points_of_table(PointTable table, const std::string& file, int dimension, const PointOptions& options);
 

@@ -74,6 +74,11 @@ Source open_any(const std::string& path, int dimension, const PointOptions& opti
 
 }  // namespace
 
+Source open_node_source(const std::string& path, int dimension, const PointOptions& options) {
+    NodeTable nodes = read_node_table(path, dimension, options);
+    return points_of_table(std::move(nodes.points), nodes.file, dimension, options);
+}
+
 Source points_of_table(PointTable table, const std::string& file, int dimension, const PointOptions& options) {
     const auto size = static_cast<std::size_t>(table.dimension);
     TableColumns all{.names = {}, .file = file, .coordinates = size};

@@ -1,6 +1,6 @@
 #!/bin/sh
 # Flags that let a compiler change results: taken back by the build (cmake/BarycertFlags.cmake), and where the sources
-# are compiled in another way, refused or taken back by core/strict_math.hpp. With every compiler at hand.
+# are compiled in another way, refused or taken back by core/base/strict_math.hpp. With every compiler at hand.
 #
 # flags.sh SOURCE_DIR BUILD_DIR "FLAGS OF THE BUILD FOR g++" "FOR clang++"     77 if clang++ is not there
 set -u

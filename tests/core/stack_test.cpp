@@ -19,7 +19,7 @@ constexpr bool as_shipped = false;  // frames are several times larger
 constexpr bool as_shipped = true;
 #endif
 
-/// As core.hpp has it.
+/// As barycert.hpp has it.
 constexpr std::size_t max_stack = std::size_t{128} * 1024;
 
 constexpr std::size_t stack_size = std::size_t{1} << 20;

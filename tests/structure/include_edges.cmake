@@ -1,4 +1,4 @@
-# Checks what linking cannot: each library includes headers of itself and of what it needs alone; public headers include
+# Checks what linking cannot: each folder of libraries includes headers of itself and of what these need alone; public headers include
 # public ones; the oracle shares nothing with what it judges (cmake -DSOURCE_DIR=src -DLIBRARIES=FILE -P include_edges.cmake).
 # LIBRARIES sets `libraries` and needs_NAME of each, as target_link_libraries has them.
 cmake_minimum_required(VERSION 3.25)

@@ -188,7 +188,7 @@ private:
 
 }  // namespace
 
-Source open_node_source(const std::string& path, int dimension, const PointOptions& options) {
+NodeTable read_node_table(const std::string& path, int dimension, const PointOptions& options) {
     const int threads = base::arena_threads();
     TextTable table = open_table(path, node_header, threads);
     const std::size_t found = table.header_field(1, 3);
@@ -208,7 +208,7 @@ Source open_node_source(const std::string& path, int dimension, const PointOptio
     settle_node_columns(table, found, points.points, points.fields, markers);
     parse_tables(std::array{&table}, threads);
     if (table.columns[3].count != 0) points.labels.push_back({"marker", std::move(markers)});
-    return points_of_table(std::move(points), table.file, dimension, options);
+    return {std::move(points), table.file};
 }
 
 }  // namespace io

@@ -1,4 +1,4 @@
-/// The cells in the order of space, by their names in the room index.
+/// The cells in the order of space, by their names in mesh/index.
 #pragma once
 
 #include "mesh/index/cell_index.hpp"

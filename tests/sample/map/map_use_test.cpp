@@ -1,4 +1,4 @@
-// What maps are for: located once, saved, read again, the rows have the same bits (law D1 of sample.hpp).
+// What maps are for: located once, saved, read again, the rows have the same bits (law D1 of sampler.hpp).
 #include <cstring>
 
 #include "barycert/locator.hpp"
