@@ -5,7 +5,7 @@
 
 #include "io/formats.hpp"
 #include "io/number_word.hpp"
-#include "io/vtk/numbers.hpp"
+#include "io/words.hpp"
 
 namespace barycert::io {
 namespace {

@@ -1,4 +1,5 @@
 #include "io/formats.hpp"
+#include "io/words.hpp"
 
 namespace barycert::io {
 
@@ -22,6 +23,22 @@ std::vector<std::string_view> cut_fields(std::string_view line, std::string_view
     }
     if (separated) fields.push_back(line.substr(line.size()));
     return fields;
+}
+
+std::string_view next_word(std::string_view& text) {
+    std::size_t begin = 0;
+    while (begin < text.size() && is_white(text[begin])) ++begin;
+    std::size_t end = begin;
+    while (end < text.size() && !is_white(text[end])) ++end;
+    const std::string_view word = text.substr(begin, end - begin);
+    text.remove_prefix(end);
+    return word;
+}
+
+bool has_word(std::string_view text, std::string_view wanted) {
+    std::string_view word = next_word(text);
+    while (!word.empty() && word != wanted) word = next_word(text);
+    return !word.empty();
 }
 
 }  // namespace barycert::io

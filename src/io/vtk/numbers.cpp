@@ -231,22 +231,6 @@ std::optional<std::uint64_t> byte_count(NumberType type, std::uint64_t count) {
     return count * size;
 }
 
-std::string_view next_word(std::string_view& text) {
-    std::size_t begin = 0;
-    while (begin < text.size() && is_white(text[begin])) ++begin;
-    std::size_t end = begin;
-    while (end < text.size() && !is_white(text[end])) ++end;
-    const std::string_view word = text.substr(begin, end - begin);
-    text.remove_prefix(end);
-    return word;
-}
-
-bool has_word(std::string_view text, std::string_view wanted) {
-    std::string_view word = next_word(text);
-    while (!word.empty() && word != wanted) word = next_word(text);
-    return !word.empty();
-}
-
 std::optional<std::uint64_t> parse_count(std::string_view text) {
     std::string_view word = next_word(text);
     if (!next_word(text).empty()) return std::nullopt;

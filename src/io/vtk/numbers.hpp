@@ -18,6 +18,8 @@
 #include <variant>
 #include <vector>
 
+#include "io/words.hpp"
+
 namespace barycert::io {
 
 enum class NumberType : std::uint8_t {
@@ -76,17 +78,8 @@ NumberFault read_binary(std::string_view bytes, NumberType type, bool swapped, s
 /// The same from text, off which that is taken. Numbers are rounded to their type, as by VTK. Memory grows with them.
 NumberFault read_text(std::string_view& text, NumberType type, std::size_t count, NumbersTo values);
 
-/// Takes the next word off `text`; empty at the end.
-std::string_view next_word(std::string_view& text);
-
-bool has_word(std::string_view text, std::string_view wanted);
-
 /// A count as XML attributes and headers give it: blanks around it, a plus before it. Nothing if it is none.
 std::optional<std::uint64_t> parse_count(std::string_view text);
-
-inline bool is_white(char c) {
-    return c == ' ' || (c >= '\t' && c <= '\r');
-}
 
 inline bool is_letter_or_digit(char c) {
     return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
