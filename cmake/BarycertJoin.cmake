@@ -4,7 +4,7 @@ if(PROJECT_IS_TOP_LEVEL)
   set(BARYCERT_UNITY ON CACHE STRING "Compile several sources of a folder in one compiler run: ON, OFF")
 endif()
 
-# barycert_join(TARGET): joins the sources of the target in each folder, by up to eight. Those with options of their own stay
+# barycert_join(TARGET): joins the sources of the target in each folder but those named below, by up to eight. Those with options of their own stay
 # alone, for the options would be lost; those that Highway compiles once for each processor, which include themselves; and
 # those with SKIP_UNITY_BUILD_INCLUSION. Call it from the folder of the target.
 function(barycert_join target)
@@ -39,14 +39,10 @@ function(barycert_cold target)
   target_compile_options(${target} PRIVATE $<$<NOT:$<CONFIG:Debug>>:-O1>)
 endfunction()
 
-# Half of the time of most sources goes into the headers of the standard library: read once a target they cost a quarter. A
-# compiler's cache knows objects, and is better off without.
+# Half of the time of most sources goes into the headers of the standard library: read once a target they cost a quarter. On in
+# the preset release, which builds once; a compiler's cache is better off without.
 if(PROJECT_IS_TOP_LEVEL)
-  set(precompile ON)
-  if(CCACHE)
-    set(precompile OFF)
-  endif()
-  option(BARYCERT_PRECOMPILE "Precompile the headers of the standard library (default: where there is no ccache)" ${precompile})
+  option(BARYCERT_PRECOMPILE "Precompile the headers of the standard library" OFF)
 endif()
 
 # barycert_precompile(TARGET): sources with options of their own read headers themselves. Call it from the folder of the target.
