@@ -16,6 +16,7 @@
 #include <random>
 
 #include "barycert/check.hpp"
+#include "barycert/io.hpp"
 #include "barycert/surface_locator.hpp"
 #include "mesh/index/open_sheets.hpp"
 #include "mesh/index/triangles.hpp"
