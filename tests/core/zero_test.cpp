@@ -1,5 +1,5 @@
-// Zeros have a sign, and one rule tells it (barycert.hpp): an exact zero is +0, whatever zeros it was made of; what is not
-// zero but rounds to it keeps its sign.
+// Zeros have a sign, and one rule tells it (barycert.hpp): an exact zero is +0, whatever zeros it was made of; what is
+// not zero but rounds to it keeps its sign.
 #include <gtest/gtest.h>
 
 #include <vector>
