@@ -4,9 +4,9 @@ if(PROJECT_IS_TOP_LEVEL)
   set(BARYCERT_UNITY ON CACHE STRING "Compile several sources of a folder in one compiler run: ON, OFF")
 endif()
 
-# barycert_join(TARGET): joins the sources of the target in each folder but those named below, by up to eight. Those with options of their own stay
-# alone, for the options would be lost; those that Highway compiles once for each processor, which include themselves; and
-# those with SKIP_UNITY_BUILD_INCLUSION. Call it from the folder of the target.
+# barycert_join(TARGET): joins the sources of the target in each folder but those named below, by up to eight. Alone stay those
+# that Highway compiles once for each processor, for they include themselves, and those that CMake leaves out: with options or
+# definitions of their own, or with SKIP_UNITY_BUILD_INCLUSION. Call it from the folder of the target.
 function(barycert_join target)
   if(NOT BARYCERT_UNITY)
     return()

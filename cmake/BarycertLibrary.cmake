@@ -1,4 +1,4 @@
-# The libraries of src, one a folder: what each is, needs and builds stands in its README.md and CMakeLists.txt.
+# The libraries of src, one or a few a folder: what each is, needs and builds stands in its README.md and CMakeLists.txt.
 
 # barycert_library(NAME ABOUT SOURCES... [NEEDS LIBRARY...] [LINKS ...] [PACKAGES ...] [MODULES ...] [OTHERS ...]): the target
 # barycert_NAME, as barycert::NAME, of the folder that calls it. NEEDS: libraries of this project, whose public headers its own

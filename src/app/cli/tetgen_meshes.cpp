@@ -11,10 +11,9 @@ std::vector<std::string> mesh_files(const std::string& path) {
 }
 
 Result<Mesh> read_mesh(const std::string& path, const ReadOptions& options) {
-    const std::string suffix = base::lower(base::suffix_of(std::string(base::without_gz(path))));
-    const std::vector<std::string> files = tetgen_files(path);
-    const bool other =
-        base::file_exists(path) && !base::has_one_of(path, {".node", ".ele"}) && !base::file_exists(files.front());
+    const std::string suffix = base::suffix_of(path);
+    const bool other = base::file_exists(path) && !base::has_one_of(path, {".node", ".ele"}) &&
+                       !base::file_exists(tetgen_files(path).front());
     if (other)
         return file_error(
             path, "barycert-audit reads meshes of TetGen and Triangle alone", ".node and .ele",

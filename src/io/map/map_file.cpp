@@ -7,8 +7,8 @@
 #include "core/isoparametric/shape_functions.hpp"
 #include "files/input_file.hpp"
 #include "files/output_file.hpp"
+#include "io/map/map_format.hpp"
 #include "mesh/pulling.hpp"
-#include "mesh/sample/map/map_format.hpp"
 
 namespace barycert {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "mesh/sample/map/map_format.hpp"
+#include "io/map/map_format.hpp"
 #include "tests/fuzz/files.hpp"
 #include "tests/fuzz/small_meshes.hpp"
 #include "tests/fuzz/target.hpp"

@@ -1,5 +1,5 @@
-#include "io/formats.hpp"
 #include "io/words.hpp"
+#include "io/formats.hpp"
 
 namespace barycert::io {
 
