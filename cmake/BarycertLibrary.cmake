@@ -1,12 +1,56 @@
 # The libraries of src, one or a few a folder: what each is, needs and builds stands in its README.md and CMakeLists.txt.
 
-# barycert_library(NAME ABOUT SOURCES... [NEEDS LIBRARY...] [LINKS ...] [PACKAGES ...] [MODULES ...] [OTHERS ...]): the target
-# barycert_NAME, as barycert::NAME, of the folder that calls it. NEEDS: libraries of this project, whose public headers its own
-# include. LINKS: what its sources alone use. Once installed, who links it finds what that is by PACKAGES of CMake, by
-# MODULES of pkg-config, and by flags of OTHERS. Public headers stand in include/barycert; all others are found below src
-# by their path, in this project alone.
+# barycert_declare(FOLDER NAME [LIBRARY...]): the library NAME of a folder of src needs those LIBRARIES.
+function(barycert_declare folder name)
+  set_property(GLOBAL APPEND PROPERTY barycert_declared ${name})
+  set_property(GLOBAL PROPERTY barycert_folder_${name} ${folder})
+  set_property(GLOBAL PROPERTY barycert_needs_${name} ${ARGN})
+endfunction()
+
+# barycert_choose(): sets barycert_chosen, those of the declared libraries that are built, and barycert_folders, which have them; both in
+# the order of their needs.
+function(barycert_choose)
+  get_property(declared GLOBAL PROPERTY barycert_declared)
+  set(wanted ${BARYCERT_LIBRARIES})
+  foreach(name IN LISTS wanted)
+    if(NOT name IN_LIST declared)
+      list(JOIN declared ", " names)
+      message(FATAL_ERROR "BARYCERT_LIBRARIES: there is no library ${name}; there are ${names}")
+    endif()
+  endforeach()
+  if(NOT wanted)
+    set(wanted ${declared})
+    if(NOT BARYCERT_AUDIT)
+      list(FILTER wanted EXCLUDE REGEX "^audit")
+    endif()
+  endif()
+  list(REVERSE declared)
+  set(chosen "")
+  set(folders "")
+  foreach(name IN LISTS declared)
+    if(name IN_LIST wanted)
+      get_property(needs GLOBAL PROPERTY barycert_needs_${name})
+      list(APPEND wanted ${needs})
+      get_property(folder GLOBAL PROPERTY barycert_folder_${name})
+      list(PREPEND chosen ${name})
+      list(REMOVE_ITEM folders ${folder})
+      list(PREPEND folders ${folder})
+    endif()
+  endforeach()
+  set(barycert_chosen ${chosen} PARENT_SCOPE)
+  set(barycert_folders ${folders} PARENT_SCOPE)
+endfunction()
+
+# barycert_library(NAME ABOUT SOURCES... [COLD] [LINKS ...] [PACKAGES ...] [MODULES ...] [OTHERS ...]): the target barycert_NAME, as
+# barycert::NAME, of the folder that calls it; nothing where the library is not chosen. The libraries that it was declared to need
+# are those whose public headers its own include. COLD: see barycert_cold. LINKS: what its sources alone use. Once installed, who
+# links it finds what that is by PACKAGES of CMake, by MODULES of pkg-config, and by flags of OTHERS. Public headers stand in
+# include/barycert; all others are found below src by their path, in this project alone.
 function(barycert_library name about)
-  cmake_parse_arguments(ARG "" "" "NEEDS;LINKS;PACKAGES;MODULES;OTHERS" ${ARGN})
+  if(NOT name IN_LIST barycert_chosen)
+    return()
+  endif()
+  cmake_parse_arguments(ARG "COLD" "" "LINKS;PACKAGES;MODULES;OTHERS" ${ARGN})
   set(target barycert_${name})
   add_library(${target} ${ARG_UNPARSED_ARGUMENTS})
   add_library(barycert::${name} ALIAS ${target})
@@ -16,17 +60,20 @@ function(barycert_library name about)
     target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>)
   endif()
   target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>)
-  list(TRANSFORM ARG_NEEDS PREPEND barycert_ OUTPUT_VARIABLE needed)
+  get_property(needed GLOBAL PROPERTY barycert_needs_${name})
+  list(TRANSFORM needed PREPEND barycert_)
   target_link_libraries(${target} PUBLIC ${needed} PRIVATE $<BUILD_INTERFACE:barycert_flags> ${ARG_LINKS})
   if(BARYCERT_FUZZ)
     barycert_fuzzed(${ARG_UNPARSED_ARGUMENTS})
+  endif()
+  if(ARG_COLD)
+    barycert_cold(${target})
   endif()
   barycert_join(${target})
   # At the end of the folder: sources get options after this call.
   cmake_language(EVAL CODE "cmake_language(DEFER CALL barycert_precompile ${target})")
   set_property(GLOBAL APPEND PROPERTY barycert_libraries ${name})
   set_property(GLOBAL PROPERTY barycert_about_${name} ${about})
-  set_property(GLOBAL PROPERTY barycert_needs_${name} ${ARG_NEEDS})
   set_property(GLOBAL PROPERTY barycert_packages_${name} ${ARG_PACKAGES})
   set_property(GLOBAL PROPERTY barycert_modules_${name} ${ARG_MODULES})
   set_property(GLOBAL PROPERTY barycert_others_${name} ${ARG_OTHERS})

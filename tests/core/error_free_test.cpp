@@ -100,8 +100,8 @@ bool refined(Simplex s, const double* vertices, const double* point, double* wei
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-#include "tests/exact/cases.hpp"
-#include "tests/exact/second_path.hpp"
+#include "tests/audit/exact/cases.hpp"
+#include "tests/audit/exact/second_path.hpp"
 
 namespace barycert::core {
 

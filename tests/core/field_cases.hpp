@@ -10,8 +10,8 @@
 #include "barycert/simplex.hpp"
 #include "core/base/random.hpp"
 #include "core/base/text.hpp"
-#include "tests/exact/cases.hpp"
-#include "tests/exact/second_path.hpp"
+#include "tests/audit/exact/cases.hpp"
+#include "tests/audit/exact/second_path.hpp"
 
 namespace barycert::testing_fields {
 

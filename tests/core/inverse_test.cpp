@@ -1,9 +1,9 @@
 // The other way round: places of values, points of weights, each against exact rationals.
 #include "barycert/weights.hpp"
 
+#include "tests/audit/exact/cases.hpp"
 #include "tests/core/environments.hpp"
 #include "tests/core/rational.hpp"
-#include "tests/exact/cases.hpp"
 
 namespace barycert {
 namespace {

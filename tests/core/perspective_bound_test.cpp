@@ -45,8 +45,8 @@ void perspective_quotients(const double* vertices, const double* point, const do
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-#include "tests/exact/cases.hpp"
-#include "tests/exact/second_path.hpp"
+#include "tests/audit/exact/cases.hpp"
+#include "tests/audit/exact/second_path.hpp"
 
 namespace barycert::core {
 

@@ -3,7 +3,7 @@
 
 #include "barycert/oracle.hpp"
 #include "barycert/perspective.hpp"
-#include "tests/exact/cases.hpp"
+#include "tests/audit/exact/cases.hpp"
 
 namespace barycert {
 namespace {

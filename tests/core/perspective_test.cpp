@@ -9,10 +9,10 @@
 
 #include "barycert/environment.hpp"
 #include "core/exact_tier.hpp"
+#include "tests/audit/exact/cases.hpp"
+#include "tests/audit/exact/second_path.hpp"
 #include "tests/core/field_cases.hpp"
 #include "tests/core/rational.hpp"
-#include "tests/exact/cases.hpp"
-#include "tests/exact/second_path.hpp"
 
 namespace barycert {
 namespace {

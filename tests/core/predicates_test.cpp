@@ -5,9 +5,9 @@
 #include <numeric>
 #include <vector>
 
+#include "tests/audit/exact/cases.hpp"
 #include "tests/core/environments.hpp"
 #include "tests/core/rational.hpp"
-#include "tests/exact/cases.hpp"
 
 namespace barycert {
 namespace {

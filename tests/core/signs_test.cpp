@@ -4,10 +4,10 @@
 #include "barycert/environment.hpp"
 #include "barycert/predicates.hpp"
 #include "barycert/weights.hpp"
+#include "tests/audit/exact/cases.hpp"
+#include "tests/audit/exact/second_path.hpp"
 #include "tests/core/environments.hpp"
 #include "tests/core/rational.hpp"
-#include "tests/exact/cases.hpp"
-#include "tests/exact/second_path.hpp"
 
 namespace barycert {
 namespace {

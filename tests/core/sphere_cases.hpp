@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "barycert/predicates.hpp"
-#include "tests/exact/cases.hpp"
+#include "tests/audit/exact/cases.hpp"
 
 namespace barycert::testing_spheres {
 

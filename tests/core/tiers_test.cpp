@@ -3,9 +3,9 @@
 
 #include "barycert/predicates.hpp"
 #include "barycert/weights.hpp"
+#include "tests/audit/exact/cases.hpp"
 #include "tests/core/environments.hpp"
 #include "tests/core/rational.hpp"
-#include "tests/exact/cases.hpp"
 
 namespace barycert {
 namespace {

@@ -1,10 +1,10 @@
 // Laws W1, W2, V1, V2: weights and values against exact rationals, rounded by the definition.
 #include "barycert/weights.hpp"
 
+#include "tests/audit/exact/cases.hpp"
+#include "tests/audit/exact/second_path.hpp"
 #include "tests/core/environments.hpp"
 #include "tests/core/rational.hpp"
-#include "tests/exact/cases.hpp"
-#include "tests/exact/second_path.hpp"
 
 namespace barycert {
 namespace {

@@ -12,7 +12,7 @@
 #include "draw/files.hpp"
 #include "draw/histogram.hpp"
 #include "draw/view.hpp"
-#include "tests/io/tetgen/mesh_files.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace barycert {
 namespace {

@@ -16,7 +16,7 @@
 #include "barycert/figure.hpp"
 #include "core/base/random.hpp"
 #include "draw/colour_map.hpp"
-#include "tests/io/tetgen/mesh_files.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace barycert::draw {
 namespace {

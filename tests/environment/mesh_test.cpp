@@ -26,8 +26,8 @@
 #include "core/base/random.hpp"
 #include "core/base/text.hpp"
 #include "io/vti/vti.hpp"
-#include "tests/check/meshes.hpp"
 #include "tests/core/same_everywhere.hpp"
+#include "tests/mesh/check/meshes.hpp"
 #include "tests/mesh/curved_mesh.hpp"
 
 namespace barycert::testing {

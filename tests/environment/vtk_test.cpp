@@ -19,8 +19,8 @@
 #include <vtkPoints.h>
 
 #include "core/base/random.hpp"
-#include "tests/check/meshes.hpp"
 #include "tests/core/same_everywhere.hpp"
+#include "tests/mesh/check/meshes.hpp"
 #include "tests/vtk/grids.hpp"
 #include "vtkBarycertLocator.h"
 #include "vtkBarycertProbe.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/cli/process.hpp"
+#include "tests/app/cli/process.hpp"
 
 namespace barycert::faults {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "tests/check/meshes.hpp"
+#include "tests/mesh/check/meshes.hpp"
 
 namespace barycert::fuzz {
 namespace {

@@ -13,7 +13,7 @@
 #include <vtkPointData.h>
 #include <vtkUnsignedCharArray.h>
 
-#include "tests/check/meshes.hpp"
+#include "tests/mesh/check/meshes.hpp"
 #include "tests/mpi/pieces.hpp"
 #include "tests/vtk/grids.hpp"
 #include "vtkPBarycertProbe.h"

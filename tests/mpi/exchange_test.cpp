@@ -1,5 +1,5 @@
-// Messages between ranks over VTK's controller: sizes from nothing to more than one chunk, and errors. tests/pieces has
-// more of them, between threads.
+// Messages between ranks over VTK's controller: sizes from nothing to more than one chunk, and errors.
+// tests/mesh/pieces has more of them, between threads.
 
 #include <gtest/gtest.h>
 

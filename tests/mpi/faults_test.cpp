@@ -23,7 +23,7 @@
 #include <vtkVariantArray.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
-#include "tests/check/meshes.hpp"
+#include "tests/mesh/check/meshes.hpp"
 #include "tests/mpi/pieces.hpp"
 #include "tests/vtk/grids.hpp"
 #include "vtkPBarycertProbe.h"

@@ -10,7 +10,7 @@
 #include <vtkNew.h>
 #include <vtkPointData.h>
 
-#include "tests/check/meshes.hpp"
+#include "tests/mesh/check/meshes.hpp"
 #include "tests/mpi/pieces.hpp"
 #include "tests/vtk/grids.hpp"
 #include "vtk/distributed_probe.hpp"

@@ -10,10 +10,10 @@
 #include <vtkNew.h>
 #include <vtkPointData.h>
 
-#include "tests/check/meshes.hpp"
 #include "tests/core/same_everywhere.hpp"
-#include "tests/locate/judge.hpp"
-#include "tests/locate/points.hpp"
+#include "tests/mesh/check/meshes.hpp"
+#include "tests/mesh/locate/judge.hpp"
+#include "tests/mesh/locate/points.hpp"
 #include "tests/mpi/pieces.hpp"
 #include "tests/vtk/grids.hpp"
 #include "tests/vtk/mixed_grids.hpp"

@@ -20,7 +20,7 @@
 #include <vtkStringArray.h>
 #include <vtkUnsignedCharArray.h>
 
-#include "tests/locate/points.hpp"
+#include "tests/mesh/locate/points.hpp"
 #include "tests/vtk/grids.hpp"
 
 namespace barycert::testing {

@@ -163,7 +163,7 @@ class RoomBench:
         draw = random.Random(SEED)
         for i in range(INPUTS):
             (inputs / f"{i:04}").write_bytes(draw.randbytes(draw.randrange(8, 240)))
-        self.words = {"tests": self.keep(f"tests/{self.room.tests}/test_{self.room.tests}")}
+        self.words = {"tests": self.keep(f"tests/{self.prefix}/test_{self.room.tests}")}
         if self.room.fuzz:
             self.words["replay"] = self.keep("tests/fuzz/fuzz_replay")
 

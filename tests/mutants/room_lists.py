@@ -94,7 +94,7 @@ AUDIT = [
 
 @dataclass
 class Room:
-    tests: str  # the folder and the executable of its tests
+    tests: str  # the executable of its tests, test_NAME, in the folder of the same path as the room's
     seconds: int  # more than ever so long its quick tests take
     listed: list
     fuzz: list = field(default_factory=list)  # targets of fuzz_replay

@@ -21,8 +21,8 @@
 #include <vtkTable.h>
 #include <vtkUnsignedCharArray.h>
 
-#include "tests/check/judge.hpp"
-#include "tests/check/meshes.hpp"
+#include "tests/mesh/check/judge.hpp"
+#include "tests/mesh/check/meshes.hpp"
 #include "tests/vtk/grids.hpp"
 #include "tests/vtk/mixed_grids.hpp"
 #include "vtkBarycertCheck.h"

@@ -17,9 +17,9 @@
 #include <vtkResampleWithDataSet.h>
 #include <vtkStreamTracer.h>
 
-#include "tests/check/meshes.hpp"
-#include "tests/locate/judge.hpp"
-#include "tests/locate/points.hpp"
+#include "tests/mesh/check/meshes.hpp"
+#include "tests/mesh/locate/judge.hpp"
+#include "tests/mesh/locate/points.hpp"
 #include "tests/vtk/grids.hpp"
 #include "vtkBarycertLocator.h"
 

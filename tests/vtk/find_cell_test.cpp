@@ -12,9 +12,9 @@
 #include <vtkNew.h>
 
 #include "barycert/oracle.hpp"
-#include "tests/check/meshes.hpp"
-#include "tests/locate/judge.hpp"
-#include "tests/locate/points.hpp"
+#include "tests/mesh/check/meshes.hpp"
+#include "tests/mesh/locate/judge.hpp"
+#include "tests/mesh/locate/points.hpp"
 #include "tests/vtk/grids.hpp"
 #include "vtkBarycertLocator.h"
 

@@ -22,8 +22,8 @@
 #include <vtkPoints.h>
 #include <vtkWeakPointer.h>
 
-#include "tests/check/meshes.hpp"
-#include "tests/locate/points.hpp"
+#include "tests/mesh/check/meshes.hpp"
+#include "tests/mesh/locate/points.hpp"
 #include "tests/vtk/grids.hpp"
 #include "vtkBarycertLocator.h"
 

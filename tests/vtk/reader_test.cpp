@@ -13,7 +13,7 @@
 #include <vtkTypeInt64Array.h>
 
 #include "barycert/io.hpp"
-#include "tests/check/meshes.hpp"
+#include "tests/mesh/check/meshes.hpp"
 #include "tests/scratch.hpp"
 #include "tests/vtk/grids.hpp"
 #include "vtkBarycertTetGenReader.h"

@@ -23,7 +23,7 @@
 #include <vtkUnsignedCharArray.h>
 
 #include "barycert/check.hpp"
-#include "tests/check/surfaces.hpp"
+#include "tests/mesh/check/surfaces.hpp"
 #include "tests/vtk/grids.hpp"
 #include "vtkBarycertCheck.h"
 

@@ -29,7 +29,7 @@
 #include <vtkUnsignedCharArray.h>
 
 #include "barycert/surface_locator.hpp"
-#include "tests/check/surfaces.hpp"
+#include "tests/mesh/check/surfaces.hpp"
 #include "tests/vtk/grids.hpp"
 #include "vtkBarycertLocator.h"
 #include "vtkBarycertProbe.h"

@@ -18,7 +18,7 @@
 #include <vtkStaticCellLocator.h>
 #include <vtkTetra.h>
 
-#include "tests/check/meshes.hpp"
+#include "tests/mesh/check/meshes.hpp"
 #include "tests/vtk/grids.hpp"
 #include "vtkBarycertLocator.h"
 

@@ -14,7 +14,7 @@ struct AuditArguments : Arguments<AuditJob> {
 void check_files(const AuditArguments& a) {
     std::vector<base::NamedFile> inputs = library_files(a.job.kernels);
     for (const NamedMesh& mesh : a.job.meshes) {
-        for (const std::string& path : mesh_files(mesh.path)) inputs.push_back({"the mesh", path});
+        for (const std::string& path : audited_files(mesh.path)) inputs.push_back({"the mesh", path});
     }
     for (const std::string& file : a.others) inputs.push_back({"--with", file});
     if (!a.job.baseline.empty()) inputs.push_back({"--baseline", a.job.baseline});
@@ -106,7 +106,7 @@ int run_audit(AuditArguments& a) {
     std::vector<OtherResults> others;
     for (const std::string& file : a.others) others.push_back(read_other_results(file).value());
     a.job.meshes_asked = !a.meshes.empty();
-    PreparedAudit prepared = prepare_audit(a.job).value();
+    PreparedAudit prepared = prepare_audit(a.job, read_audited).value();
     if (!meshes && std::ranges::any_of(prepared.options.families, &Family::needs_mesh)) return fail(meshes.error());
     for (const Kernel& kernel : prepared.options.kernels) {
         if (prepared.libraries.contains(kernel.name)) tell_note(prepared.libraries.at(kernel.name), kernel);

@@ -7,6 +7,11 @@
 
 namespace barycert::cli {
 
+/// What the program reads meshes by, and the files that a path names: barycert all formats (all_meshes.cpp),
+/// barycert-audit those of TetGen and Triangle alone (tetgen_meshes.cpp).
+Result<Mesh> read_audited(const std::string& path, const ReadOptions& options);
+std::vector<std::string> audited_files(const std::string& path);
+
 /// The meshes named by the user, or those of barycert's own data folder, by the stems of their files.
 Result<std::vector<NamedMesh>> meshes_or_own(const std::vector<std::string>& paths);
 

@@ -25,13 +25,13 @@ std::string broken_limits(const GapsReport& report, const std::vector<GapsLimit>
 }
 
 int run_gaps(GapsArguments& a) {
-    std::vector<base::NamedFile> inputs = base::named_files("the mesh", mesh_files(a.job.mesh));
+    std::vector<base::NamedFile> inputs = base::named_files("the mesh", audited_files(a.job.mesh));
     for (base::NamedFile& file : library_files(a.kernels)) inputs.push_back(std::move(file));
     a.reports.check(inputs);
     a.job.options.kernels = chosen_kernels(a.kernels).value();
     std::ranges::copy_if(all_claim_rules, std::back_inserter(a.job.options.rules),
                          [&](ClaimRule rule) { return std::ranges::count(a.rules, name(rule)) != 0; });
-    return a.reports.end(gaps_file(a.job), [&](const GapsReport& report) {
+    return a.reports.end(gaps_file(a.job, read_audited), [&](const GapsReport& report) {
         const std::string failures = broken_limits(report, a.limits);
         return Told{.files = {{"--json", [&] { return gaps_json(report); }}},
                     .text = [&](bool colour) { return gaps_text(report, {.colour = colour}); },

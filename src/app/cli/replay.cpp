@@ -51,7 +51,7 @@ std::vector<Witness> witnesses_of(ReplayArguments& a, const std::vector<Kernel>&
     // Where they are missing, it is told only if the family draws from meshes.
     const auto meshes = meshes_or_own(a.meshes);
     if (meshes) a.job.meshes = *meshes;
-    Result<Witness> made = make_witness(a.job, kernels);
+    Result<Witness> made = make_witness(a.job, kernels, read_audited);
     if (!made && !meshes && made.error().what.starts_with("no mesh supplies")) throw Exception(meshes.error());
     return {std::move(made).value()};
 }

@@ -1,16 +1,16 @@
-// barycert-audit reads the files of TetGen and Triangle alone: these stand for those of barycert::io, which it does not
-// link.
+// barycert-audit reads the files of TetGen and Triangle alone: readers of other formats are much of the time of
+// building.
 
-#include "barycert/io.hpp"
+#include "audit_inputs.hpp"
 #include "files/suffix.hpp"
 
-namespace barycert {
+namespace barycert::cli {
 
-std::vector<std::string> mesh_files(const std::string& path) {
+std::vector<std::string> audited_files(const std::string& path) {
     return tetgen_files(path);
 }
 
-Result<Mesh> read_mesh(const std::string& path, const ReadOptions& options) {
+Result<Mesh> read_audited(const std::string& path, const ReadOptions& options) {
     const std::string suffix = base::suffix_of(path);
     const bool other = base::file_exists(path) && !base::has_one_of(path, {".node", ".ele"}) &&
                        !base::file_exists(tetgen_files(path).front());
@@ -22,4 +22,4 @@ Result<Mesh> read_mesh(const std::string& path, const ReadOptions& options) {
     return read_tetgen(path, options);
 }
 
-}  // namespace barycert
+}  // namespace barycert::cli

@@ -5,7 +5,6 @@
 #include "audit/asking.hpp"
 #include "barycert/audit_job.hpp"
 #include "barycert/check.hpp"
-#include "barycert/io.hpp"
 
 namespace barycert {
 
@@ -15,8 +14,8 @@ using audit::unknown_name;
 namespace {
 
 /// A mesh whose cells are taken with straight sides, as far as they may. Throws an Exception.
-Mesh cells_of(const std::string& path, int threads, Curved curved, Notes& notes) {
-    Mesh mesh = read_mesh(path, {.faces = false, .neighbours = false, .threads = threads}).value();
+Mesh cells_of(const std::string& path, int threads, Curved curved, const MeshReader& read, Notes& notes) {
+    Mesh mesh = read(path, {.faces = false, .neighbours = false, .threads = threads}).value();
     if (curved == Curved::refuse) measure_curved(mesh, path, curved).value();
     notes.insert(notes.end(), mesh.notes.begin(), mesh.notes.end());
     return mesh;
@@ -27,11 +26,12 @@ Certificate certificate_of(const Mesh& mesh, int threads) {
 }
 
 /// Throws an Exception.
-MeshSource source_of(const std::vector<NamedMesh>& meshes, bool certify, int threads, Curved curved, Notes& notes) {
+MeshSource source_of(const std::vector<NamedMesh>& meshes, bool certify, int threads, Curved curved,
+                     const MeshReader& read, Notes& notes) {
     MeshSource source;
     tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
     for (const NamedMesh& named : meshes) {
-        Mesh mesh = cells_of(named.path, threads, curved, notes);
+        Mesh mesh = cells_of(named.path, threads, curved, read, notes);
         if (mesh.cell_count() == 0) throw Exception({.what = "the mesh has no cells", .file = named.path});
         const Certificate certificate = certify ? certificate_of(mesh, threads) : Certificate();
         arena.execute([&] { source.add(named.name, std::move(mesh), certificate); });
@@ -41,13 +41,13 @@ MeshSource source_of(const std::vector<NamedMesh>& meshes, bool certify, int thr
 
 }  // namespace
 
-Result<PreparedAudit> prepare_audit(const AuditJob& job) try {
+Result<PreparedAudit> prepare_audit(const AuditJob& job, const MeshReader& read) try {
     PreparedAudit out{.options = job.options, .meshes = {}, .baseline = {}, .libraries = {}, .notes = {}};
     out.options.kernels = choose_kernels(job.kernels).value();
     out.options.families = choose_families(job.families).value();
     const bool wanted = std::ranges::any_of(out.options.families, &Family::needs_mesh);
     if (wanted || job.meshes_asked)
-        out.meshes = source_of(job.meshes, job.check, job.options.threads, job.curved, out.notes);
+        out.meshes = source_of(job.meshes, job.check, job.options.threads, job.curved, read, out.notes);
     if (!job.baseline.empty()) {
         out.baseline = read_baseline(job.baseline).value();
         check_comparable(*out.baseline, out.options, out.meshes).value();
@@ -61,7 +61,7 @@ Result<PreparedAudit> prepare_audit(const AuditJob& job) try {
     return e.error();
 }
 
-Result<Witness> make_witness(const CaseJob& job, const std::vector<Kernel>& kernels) try {
+Result<Witness> make_witness(const CaseJob& job, const std::vector<Kernel>& kernels, const MeshReader& read) try {
     if (!job.reason.empty() && !finding_named(job.reason))
         return unknown_name("job.reason of a case that is generated", "a class of finding", job.reason, {},
                             "leave it out to see the answer whatever it is");
@@ -93,7 +93,7 @@ Result<Witness> make_witness(const CaseJob& job, const std::vector<Kernel>& kern
     MeshSource meshes;
     if (family.needs_mesh) {
         Notes notes;
-        meshes = source_of(job.meshes, false, 0, Curved::straight, notes);
+        meshes = source_of(job.meshes, false, 0, Curved::straight, read, notes);
         if (!meshes.supplies(*simplex))
             return Error{.what = "no mesh supplies a " + std::string(name(*simplex)),
                          .remedy = "name one with job.mesh"};
@@ -105,9 +105,9 @@ Result<Witness> make_witness(const CaseJob& job, const std::vector<Kernel>& kern
     return e.error();
 }
 
-Result<GapsReport> gaps_file(const GapsJob& job) try {
+Result<GapsReport> gaps_file(const GapsJob& job, const MeshReader& read) try {
     Notes notes;
-    const Mesh mesh = cells_of(job.mesh, job.options.threads, job.curved, notes);
+    const Mesh mesh = cells_of(job.mesh, job.options.threads, job.curved, read, notes);
     const Verdict verdict =
         job.check ? certificate_of(mesh, job.options.threads).verdict_on(mesh) : Verdict::not_checked;
     GapsReport report = find_gaps(job.options, mesh, job.mesh, verdict).value();

@@ -9,11 +9,11 @@
 #include "barycert/oracle.hpp"
 #include "barycert/sampler.hpp"
 #include "mesh/locate/locator_data.hpp"
-#include "tests/check/judge.hpp"
 #include "tests/fuzz/drawn.hpp"
 #include "tests/fuzz/same.hpp"
 #include "tests/fuzz/target.hpp"
-#include "tests/locate/judge.hpp"
+#include "tests/mesh/check/judge.hpp"
+#include "tests/mesh/locate/judge.hpp"
 
 namespace barycert::fuzz {
 namespace {

@@ -6,8 +6,8 @@
 #include "barycert/locator.hpp"
 #include "tests/fuzz/drawn.hpp"
 #include "tests/fuzz/target.hpp"
-#include "tests/locate/judge.hpp"
-#include "tests/locate/nearest_judge.hpp"
+#include "tests/mesh/locate/judge.hpp"
+#include "tests/mesh/locate/nearest_judge.hpp"
 
 namespace barycert::fuzz {
 

@@ -1,52 +1,14 @@
-/// Mesh files of a test: written to a folder of their own, removed afterwards.
+/// Mesh files of a test, in a folder of its own: written, read, compared.
 #pragma once
 
-#include <unistd.h>
-
-#include <atomic>
-#include <filesystem>
-#include <fstream>
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "barycert/io.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace barycert::testing {
-
-class TemporaryFolder {
-public:
-    TemporaryFolder() {
-        static std::atomic<int> count{0};
-        path_ = std::filesystem::temp_directory_path() /
-                ("barycert-mesh-" + std::to_string(::getpid()) + "-" + std::to_string(count++));
-        std::filesystem::create_directories(path_);
-    }
-    ~TemporaryFolder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-    std::string operator/(const std::string& name) const { return (path_ / name).string(); }
-    std::size_t file_count() const {
-        return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(path_), {}));
-    }
-
-private:
-    std::filesystem::path path_;
-};
-
-inline void put(const std::string& path, const std::string& text) {
-    std::filesystem::remove(path);  // some file systems wait for the disk where a file is overwritten
-    std::ofstream(path, std::ios::binary) << text;
-}
-
-inline std::string get(const std::string& path) {
-    std::ifstream in(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
 
 inline const char* const tetrahedron_node = "4 3 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n";
 inline const char* const tetrahedron_ele = "1 4 0\n1 1 2 3 4\n";

@@ -1,6 +1,7 @@
-/// Audits by names of files: of meshes, an earlier audit.
+/// Audits by names of files: of meshes, an earlier audit. Who calls with read_mesh links barycert::io, too.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -8,11 +9,15 @@
 
 #include "barycert/audit.hpp"
 #include "barycert/audit_search.hpp"
+#include "barycert/io.hpp"
 
 namespace barycert {
 
+/// Reads the mesh of a path: read_mesh() all formats, read_tetgen() those of TetGen and Triangle alone.
+using MeshReader = std::function<Result<Mesh>(const std::string& path, const ReadOptions& options)>;
+
 struct NamedMesh {
-    std::string name, path;  ///< as for read_mesh
+    std::string name, path;  ///< as for the reader
 };
 
 struct AuditJob {
@@ -35,8 +40,8 @@ struct PreparedAudit {
     Notes notes;                                   ///< of the meshes
 };
 
-/// Errors: those of the choices, of read_mesh and read_baseline; a mesh without cells; a baseline of other cases.
-Result<PreparedAudit> prepare_audit(const AuditJob& job);
+/// Errors: those of the choices, of the reader and read_baseline; a mesh without cells; a baseline of other cases.
+Result<PreparedAudit> prepare_audit(const AuditJob& job, const MeshReader& read = read_mesh);
 
 /// A case that a family makes, as a witness.
 struct CaseJob {
@@ -45,15 +50,16 @@ struct CaseJob {
     std::string simplex, kernel, reason;  ///< empty: any; what family and kernel leave open, the simplex decides
     std::vector<NamedMesh> meshes;        ///< for families that draw from meshes
 };
-Result<Witness> make_witness(const CaseJob& job, const std::vector<Kernel>& kernels);
+Result<Witness> make_witness(const CaseJob& job, const std::vector<Kernel>& kernels,
+                             const MeshReader& read = read_mesh);
 
 /// Points of a mesh that a kernel loses between cells: find_gaps() of a file.
 struct GapsJob {
-    std::string mesh;  ///< as for read_mesh
+    std::string mesh;  ///< as for the reader
     Curved curved = Curved::isoparametric;
     bool check = true;  ///< whether the mesh is a partition
     GapsOptions options = {};
 };
-Result<GapsReport> gaps_file(const GapsJob& job);
+Result<GapsReport> gaps_file(const GapsJob& job, const MeshReader& read = read_mesh);
 
 }  // namespace barycert

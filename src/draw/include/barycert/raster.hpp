@@ -3,7 +3,7 @@
 /// Window coordinates: x to the right, y up, in pixels. Pixel (i, j), column i from the left and row j from the bottom,
 /// has its centre at (i + 0.5, j + 0.5).
 ///
-/// Laws (each is a test of that name in tests/raster):
+/// Laws (each is a test of that name in tests/draw/raster):
 ///   R1  A triangle covers the pixels whose centres lie in its open interior, and of those on its sides the ones that
 ///       the top-left rule gives it: centres on a left side (the triangle is to the right of it) or on a top side (it
 ///       is horizontal and the triangle is below it). All signs are exact, for any finite coordinates. So triangles
@@ -182,7 +182,7 @@ Result<std::size_t> draw_textured(Image& image, const Texture& texture, std::spa
 // A vertex is a row of numbers: its position, then its attributes. Where a bound cuts, a new vertex C stands between A
 // and B, and each of its numbers is V_C = W_A * V_A + (1 - W_A) * V_B.
 //
-// Laws (each is a test of that name in tests/raster):
+// Laws (each is a test of that name in tests/draw/raster):
 //   C1  Which part lies inside is decided exactly, for any finite numbers.
 //   C2  Every number of a new vertex is the exact one of the segment or triangle given, rounded to nearest, ties to
 //       even, however many bounds have cut it. An exact zero is +0. Vertices that stay keep their bits.

@@ -10,7 +10,7 @@
 /// faces are told by enclosures of 250 bits and rational numbers. That curved cells do not overlap is not proved: a
 /// point inside the cell whose straight simplex has it is not looked for elsewhere.
 ///
-/// What holds (each law is a test of that name in tests/locate):
+/// What holds (each law is a test of that name in tests/mesh/locate):
 ///   L1  A point in the union of the closed cells of non-zero volume is always found, and its owner is the lowest cell
 ///       index among all cells that contain it, whatever their orientation, overlapping cells included. `locate_all`
 ///       returns all of them.

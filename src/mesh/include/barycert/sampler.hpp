@@ -3,7 +3,7 @@
 /// Input: a mesh with fields of its nodes or cells, and points in the unit of the mesh. Output: a Table, with the
 /// owner, the feature and a value for each component of each field at each point.
 ///
-/// What holds (each law is a test of that name in tests/sample):
+/// What holds (each law is a test of that name in tests/mesh/sample):
 ///   V1  A value of a point field is the exact interpolation in the owner, linear, or quadratic on cells of second
 ///       order, rounded once to nearest, ties to even. A value of a cell field is that of the owner.
 ///   V2  Where cells meet in a proper mesh, point fields have the same bits from every cell that holds the point. A

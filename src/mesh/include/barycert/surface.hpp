@@ -8,7 +8,7 @@
 /// one triangle or two in every cell that has nodes inside the set and outside. Its points lie on edges of the mesh
 /// between a node inside and one outside, where g is zero; where the node inside has g = 0, at that node.
 ///
-/// Laws (each is a test of that name in tests/surface):
+/// Laws (each is a test of that name in tests/mesh/surface):
 ///   K1  Each coordinate and each value of a carried field of nodes is that of the exact crossing, from the exact
 ///       parameter on the edge, rounded once to nearest, ties to even; an exact zero is +0. It is NaN if a value at an
 ///       end of the edge is not finite. At a node it is that of the node.

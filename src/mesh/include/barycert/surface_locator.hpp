@@ -4,7 +4,7 @@
 /// area is the segment or point that it is. Output: on which triangle a point lies, or on which side; the nearest
 /// triangle and point of it; where a segment or ray meets the surface.
 ///
-/// What holds, for every finite point (each law is a test of that name in tests/locate):
+/// What holds, for every finite point (each law is a test of that name in tests/mesh/locate):
 ///   W1  A point that lies on a triangle is always found there, on its face, edge or vertex; of several triangles it is
 ///       the lowest.
 ///   W2  The winding number of every other point is exact: how many times the surface goes around it, the sum of what

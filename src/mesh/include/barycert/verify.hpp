@@ -3,7 +3,7 @@
 /// Input: a mesh with fields, points in its unit, and for each point what a tool says of it: outside or not, the cell
 /// that contains it, a value for each component of fields. Output: counts, distributions of errors, and the worst rows.
 ///
-/// What counts as right (each law is a test of that name in tests/verify):
+/// What counts as right (each law is a test of that name in tests/mesh/verify):
 ///   R1  Inside: the point lies in a closed cell of non-zero volume, exactly. A row that says so is right, and so is a
 ///       row that says "outside" of any other point.
 ///   R2  Cell: any closed cell of non-zero volume that contains the point is right, not its owner alone.
