@@ -63,22 +63,80 @@ results of other tools, and audits floating-point kernels for barycentric
 weights against exact arithmetic."
     SUGGESTS barycert-tetgen python3-meshio PARTS bin/barycert)
 endif()
-get_property(barycert_libraries GLOBAL PROPERTY barycert_libraries)
-foreach(library ${barycert_libraries})
-  list(APPEND archives $<PATH:RELATIVE_PATH,$<TARGET_FILE:barycert_${library}>,${PROJECT_BINARY_DIR}>)
+# A package for each folder of libraries: their archives, public headers, and what CMake and pkg-config need to find them. It depends on the
+# packages of what they need, in this project and elsewhere.
+set(summary_core "exact predicates and weights of simplices")
+set(words_core "Exact signs, orientations and in-sphere tests, correctly rounded barycentric
+weights, values and gradients, inverse maps of cells.")
+set(summary_files "files that appear whole, for barycert")
+set(words_files "Files that appear complete or not at all, packed files unpacked: what
+barycert's other libraries read and write with. Without public headers.")
+set(summary_mesh "exact checks, location and sampling of meshes")
+set(words_mesh "Checks whether a mesh is a partition, finds the cell of a point, samples
+fields at points and on grids, cuts iso-surfaces, verifies other tools' values.")
+set(summary_io "files of meshes, points and values for barycert")
+set(words_io "Reads and writes the files of TetGen, Triangle, Gmsh, Medit and VTK, surfaces,
+CSV and NumPy's files.")
+set(summary_draw "pictures of meshes and fields by barycert")
+set(words_draw "Figures of meshes, slices and iso-surfaces with axes and colour bars, scenes
+with textures, as PNG, PDF and SVG.")
+set(summary_audit "audits of floating-point kernels by exact arithmetic")
+set(words_audit "A catalogue of formulas for barycentric weights with their faults, an exact
+oracle, and audits of one by the other.")
+set(summary_app "jobs and reports of barycert, files to files")
+set(words_app "What barycert's subcommands do, as functions: sample, resample, check, verify
+and render files; reports as text, JSON and pages.")
+# Debian's names of what pkg-config calls otherwise than lib...-dev of its own name.
+set(debian_libhwy libhwy-dev)
+set(debian_zlib zlib1g-dev)
+set(debian_libdeflate libdeflate-dev)
+set(debian_expat libexpat1-dev)
+set(debian_liblzma liblzma-dev)
+set(debian_liblz4 liblz4-dev)
+set(debian_libpng libpng-dev)
+set(debian_cairo libcairo2-dev)
+set(debian_freetype2 libfreetype-dev)
+foreach(folder ${barycert_folders})
+  set(archives "")
+  set(depends "")
+  foreach(library ${barycert_libraries})
+    get_property(folder_of_library GLOBAL PROPERTY barycert_folder_${library})
+    if(NOT folder_of_library STREQUAL folder)
+      continue()
+    endif()
+    list(APPEND archives $<PATH:RELATIVE_PATH,$<TARGET_FILE:barycert_${library}>,${PROJECT_BINARY_DIR}>)
+    get_property(needs GLOBAL PROPERTY barycert_needs_${library})
+    foreach(need ${needs})
+      get_property(other GLOBAL PROPERTY barycert_folder_${need})
+      if(NOT other STREQUAL folder)
+        list(APPEND depends "libbarycert-${other}-dev (= ${package_version})")
+      endif()
+    endforeach()
+    get_property(modules GLOBAL PROPERTY barycert_modules_${library})
+    foreach(module ${modules})
+      if(NOT debian_${module})
+        set(debian_${module} lib${module}-dev)
+      endif()
+      list(APPEND depends ${debian_${module}})
+    endforeach()
+  endforeach()
+  list(REMOVE_DUPLICATES depends)
+  barycert_deb(${folder} libbarycert-${folder}-dev libdevel "${summary_${folder}}, C++ library" "${words_${folder}}"
+    DEPENDS ${depends} PARTS ${archives})
 endforeach()
-barycert_deb(dev libbarycert-dev libdevel "exact interpolation over meshes, C++ library"
-  "Static libraries, headers, and what CMake and pkg-config need to find them:
-barycert::barycert with exact predicates, weights, sampling and checks of
-meshes, and barycert::audit with audits of kernels and the oracle."
-  DEPENDS libhwy-dev libtbb-dev libfmt-dev libpng-dev libcairo2-dev libfreetype-dev zlib1g-dev libexpat1-dev libdeflate-dev liblzma-dev liblz4-dev libgmp-dev libmpfr-dev
-  PARTS ${archives})
+if(TARGET barycert)
+  barycert_deb(dev libbarycert-dev libdevel "exact interpolation over meshes, C++ libraries"
+    "What CMake and pkg-config call barycert: exact predicates and weights, checks
+and sampling of meshes, and their files."
+    DEPENDS "libbarycert-core-dev (= ${package_version})" "libbarycert-mesh-dev (= ${package_version})"
+      "libbarycert-io-dev (= ${package_version})")
+endif()
 if(TARGET barycert_vtk)
   barycert_deb(vtk libbarycert-vtk-dev libdevel "exact cell locator and probe for VTK"
     "vtkBarycertLocator, a cell locator whose owners are exact, and
 vtkBarycertProbe, with correctly rounded values, for VTK 9: a static library
 and headers, for CMake as barycert::vtk."
-    DEPENDS "libbarycert-dev (= ${package_version})" libvtk9-dev PARTS src/vtk/libbarycert_vtk.a)
+    DEPENDS "libbarycert-app-dev (= ${package_version})" libvtk9-dev PARTS src/vtk/libbarycert_vtk.a)
 endif()
 if(TARGET barycert-tetgen)
   barycert_deb(tetgen barycert-tetgen science "meshes for barycert by TetGen"

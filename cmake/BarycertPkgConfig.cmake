@@ -1,8 +1,8 @@
 # barycert-NAME.pc of each library and barycert.pc, for builds that do not use CMake. What a static library calls, whoever
 # links it must link, too; of a shared one that is nobody's business.
 
-# barycert_pkg_config(NAME DESCRIPTION LIBRARIES REQUIRES PRIVATE_REQUIRES PRIVATE_LIBRARIES)
-function(barycert_pkg_config name description libraries requires private_requires private_libraries)
+# barycert_pkg_config(COMPONENT NAME DESCRIPTION LIBRARIES REQUIRES PRIVATE_REQUIRES PRIVATE_LIBRARIES)
+function(barycert_pkg_config component name description libraries requires private_requires private_libraries)
   # The prefix is found from the place of the file, so that an installation can be moved.
   file(RELATIVE_PATH up /p/${CMAKE_INSTALL_LIBDIR}/pkgconfig /p)
   string(REGEX REPLACE "/$" "" up ${up})
@@ -16,7 +16,7 @@ function(barycert_pkg_config name description libraries requires private_require
   endif()
   string(REGEX REPLACE " +(\n| )" "\\1" text "${text}")
   file(WRITE ${PROJECT_BINARY_DIR}/${name}.pc "${text}")
-  install(FILES ${PROJECT_BINARY_DIR}/${name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT dev)
+  install(FILES ${PROJECT_BINARY_DIR}/${name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT ${component})
 endfunction()
 
 foreach(library ${barycert_libraries})
@@ -30,6 +30,10 @@ foreach(library ${barycert_libraries})
   endforeach()
   string(REPLACE "_" "-" name barycert-${library})
   string(REPLACE "_" "-" needs "${needs}")
-  barycert_pkg_config(${name} "barycert: ${about}" -lbarycert_${library} "${needs}" "${modules}" "${others}")
+  get_property(folder GLOBAL PROPERTY barycert_folder_${library})
+  barycert_pkg_config(${folder} ${name} "barycert: ${about}" -lbarycert_${library} "${needs}" "${modules}" "${others}")
 endforeach()
-barycert_pkg_config(barycert "${PROJECT_DESCRIPTION}" "" "barycert-core barycert-mesh barycert-sample barycert-io" "" "")
+# The component dev is the Debian package libbarycert-dev, which brings these libraries.
+if(TARGET barycert)
+  barycert_pkg_config(dev barycert "${PROJECT_DESCRIPTION}" "" "barycert-core barycert-mesh barycert-sample barycert-io" "" "")
+endif()

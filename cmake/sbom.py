@@ -5,7 +5,7 @@ version. A package whose licence is not listed below is an error: add it, after 
 
     sbom.py --build BUILD --package NAME --version VERSION --output FILE [--notices FOLDER] PART...
 
-PART: a program or library below BUILD."""
+PART: a program or library below BUILD; none: a package that brings others."""
 
 import argparse
 import datetime
@@ -55,10 +55,10 @@ LICENCES = {
     "xz-utils": "LicenseRef-public-domain",
     "zlib": "Zlib",
 }
-# Files of the project that are others' work and part of the library: name, version, licence, file of that.
+# Files of the project that are others' work and part of what is built from them: file, name, version, licence, file of that.
 EMBEDDED = [
-    ("DejaVu Sans", "2.37", "Bitstream-Vera", "data/fonts/LICENSE"),
-    ("three.js", "0.160.1", "MIT", "data/viewer/LICENSE"),
+    ("data/fonts/DejaVuSans.ttf", "DejaVu Sans", "2.37", "Bitstream-Vera", "data/fonts/LICENSE"),
+    ("data/viewer/three.min.js", "three.js", "0.160.1", "MIT", "data/viewer/LICENSE"),
 ]
 PUBLIC_DOMAIN = {
     "licenseId": "LicenseRef-public-domain",
@@ -88,9 +88,15 @@ def packages_of(paths):
     return found, known
 
 
-def headers_of(build, ninja, parts):
+def inputs_of(build, ninja, parts):
+    """All that the parts are built from."""
+    return said(ninja, "-C", build, "-t", "inputs", *parts).splitlines() if parts else []
+
+
+def headers_of(build, ninja, parts, inputs):
     """The headers outside of the project that the objects of the parts were compiled with."""
-    inputs = said(ninja, "-C", build, "-t", "inputs", *parts).splitlines()
+    if not parts:
+        return set()
     objects = {name for name in inputs if name.endswith(".o")}
     if not objects:
         sys.exit("sbom.py: no objects in " + " ".join(parts))
@@ -136,10 +142,12 @@ def main():
         parser.add_argument("--" + option, required=True)
     parser.add_argument("--ninja", default="ninja")
     parser.add_argument("--notices", help="copies the copyright files of what is compiled in to this folder")
-    parser.add_argument("parts", nargs="+", metavar="PART")
+    parser.add_argument("parts", nargs="*", metavar="PART")
     a = parser.parse_args()
 
-    headers = headers_of(a.build, a.ninja, a.parts)
+    inputs = inputs_of(a.build, a.ninja, a.parts)
+    headers = headers_of(a.build, a.ninja, a.parts, inputs)
+    embedded = [words for file, *words in EMBEDDED if any(path.endswith(file) for path in inputs)]
     compiled_in, known = packages_of(headers)
     unknown = sorted(headers - known)
     if unknown:
@@ -199,7 +207,7 @@ def main():
                 }
             )
 
-    for name, version, licence, notice in EMBEDDED:
+    for name, version, licence, notice in embedded:
         packages.append(
             {
                 "SPDXID": identifier(name),
@@ -258,11 +266,11 @@ def main():
     with open(a.output, "w", encoding="utf-8") as file:
         json.dump(document, file, indent=1)
         file.write("\n")
-    if a.notices:
+    if a.notices and a.parts:
         os.makedirs(a.notices, exist_ok=True)
         root = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..")
         paths = {name: f"/usr/share/doc/{name}/copyright" for name in compiled_in}
-        paths.update({name.replace(" ", "-"): os.path.join(root, notice) for name, _, _, notice in EMBEDDED})
+        paths.update({name.replace(" ", "-"): os.path.join(root, notice) for name, _, _, notice in embedded})
         for name, path in paths.items():
             with open(path, "rb") as notice:
                 with open(f"{a.notices}/{name}.gz", "wb") as raw, gzip.GzipFile("", "wb", 9, raw, mtime=0) as file:

@@ -57,9 +57,6 @@ Status status_of(const F& f) try {
     return problem.error();
 }
 
-/// The fields of a line, parted by blanks or a separator with blanks around it; empty where it has no neighbour.
-std::vector<std::string_view> cut_fields(std::string_view line, std::string_view blanks, std::string_view separators);
-
 /// The line of a text in which `at` lies, from 1.
 inline std::size_t line_of(std::string_view text, const char* at) {
     return static_cast<std::size_t>(std::count(text.data(), at, '\n')) + 1;

@@ -3,6 +3,7 @@
 #include <set>
 
 #include "core/base/nearest_name.hpp"
+#include "io/words.hpp"
 
 namespace barycert::io {
 namespace {

@@ -1,5 +1,4 @@
 #include "io/words.hpp"
-#include "io/formats.hpp"
 
 namespace barycert::io {
 

@@ -85,4 +85,8 @@ if os.path.exists(os.path.join(build, "bin/barycert-tetgen")):
     check_form(mesher)
     assert licences(mesher)["barycert-tetgen"] == "AGPL-3.0-or-later"
     assert not any(name.startswith("libcgal") for name in licences(mesher))
+# A library has what it is made of; a package that brings others has nothing.
+core = licences(bill("libbarycert-core-dev", "src/core/libbarycert_core.a"))
+assert "libhwy-dev" in core and not {"DejaVu Sans", "libtbb-dev", "libcairo2-dev"} & set(core), core
+assert list(licences(bill("libbarycert-dev"))) == ["libbarycert-dev"]
 print("bills of materials:", ", ".join(sorted(of)))

@@ -3,6 +3,7 @@
 #include "io/csv/line_reader.hpp"
 #include "io/npy/npy.hpp"
 #include "io/streams.hpp"
+#include "io/words.hpp"
 
 namespace barycert::io {
 namespace {

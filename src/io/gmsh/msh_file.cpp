@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "io/number_word.hpp"
+#include "io/words.hpp"
 
 namespace barycert::io {
 namespace {

@@ -3,6 +3,7 @@
 #include "io/number_word.hpp"
 #include "io/polygons/polygons.hpp"
 #include "io/tetgen/scanner.hpp"
+#include "io/words.hpp"
 
 namespace barycert::io {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "io/polygons/polygons.hpp"
-#include "mesh/surface/plc_triangles.hpp"
+#include "mesh/facets/plc_triangles.hpp"
 
 namespace barycert::io {
 

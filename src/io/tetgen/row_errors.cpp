@@ -1,4 +1,5 @@
 #include "io/tetgen/text_table.hpp"
+#include "io/words.hpp"
 
 namespace barycert::io {
 namespace {

@@ -2,7 +2,7 @@
 
 #include "core/base/finite.hpp"
 #include "mesh/consistency.hpp"
-#include "mesh/surface/facet_triangles.hpp"
+#include "mesh/facets/facet_triangles.hpp"
 
 namespace barycert::io {
 namespace {

@@ -5,12 +5,12 @@
 
 #include "core/base/vectors.hpp"
 #include "mesh/check/stages.hpp"
-#include "mesh/surface/facet_triangles.hpp"
+#include "mesh/facets/facet_triangles.hpp"
 
 namespace barycert::check {
 
 /// The polygons of a facet, projected along the axis on which its normal is largest. Its region is what its triangles
-/// fill (mesh/surface/facet_triangles.hpp): none if its polygons cross each other.
+/// fill (mesh/facets/facet_triangles.hpp): none if its polygons cross each other.
 ///
 /// Plain geometry works in a unit of 2^exponent, relative to a vertex, so that nothing over- or underflows; what is
 /// said to be exact works on the coordinates as they are.

@@ -4,9 +4,9 @@
 #include "barycert/locator.hpp"
 #include "core/base/finite.hpp"
 #include "core/base/strict_math.hpp"
+#include "mesh/facets/facet_triangles.hpp"
 #include "mesh/index/box_tree.hpp"
 #include "mesh/pieces/exchange.hpp"
-#include "mesh/surface/facet_triangles.hpp"
 
 namespace barycert::pieces {
 

@@ -1,5 +1,5 @@
 // Facets cut into triangles: their area, their edges, and what is wrong with them.
-#include "mesh/surface/facet_triangles.hpp"
+#include "mesh/facets/facet_triangles.hpp"
 
 #include <gmpxx.h>
 #include <gtest/gtest.h>

@@ -5,7 +5,7 @@
 #include <chrono>
 
 #include "mesh/check/surface/parts.hpp"
-#include "mesh/surface/plc_triangles.hpp"
+#include "mesh/facets/plc_triangles.hpp"
 
 namespace barycert {
 

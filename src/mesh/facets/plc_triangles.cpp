@@ -1,4 +1,4 @@
-#include "mesh/surface/plc_triangles.hpp"
+#include "mesh/facets/plc_triangles.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "mesh/surface/facet_triangles.hpp"
+#include "mesh/facets/facet_triangles.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 
 #include "barycert/plc.hpp"
 #include "barycert/surface.hpp"
-#include "mesh/surface/facet_triangles.hpp"
+#include "mesh/facets/facet_triangles.hpp"
 
 namespace barycert::surface {
 
