@@ -83,6 +83,7 @@ share_with_system() {
 leave_bare_system() {
     status=$?
     trap - EXIT INT TERM HUP
+    ! command -v unmount_more >/dev/null || unmount_more  # what a script mounted on top
     # What is still mounted below must not be removed with the rest: it is this machine's.
     for mounted in dev/pts dev proc sys; do
         ! mountpoint -q "$system/$mounted" || umount -l "$system/$mounted" || { say "still mounted: $system/$mounted"; exit 2; }
