@@ -1,0 +1,32 @@
+# Each library alone is configured with no package but those that it needs (-DSOURCE_DIR= -DBUILD_DIR= -DGENERATOR= -DCOMPILER=): all others are
+# disabled, and to ask for one is an error.
+cmake_minimum_required(VERSION 3.25)
+set(all hwy FastFloat Boost TBB fmt nlohmann_json Threads ZLIB EXPAT LibLZMA PNG CGAL Eigen3 CLI11 GTest rapidcheck VTK pybind11 Python3 MPI)
+
+# asks_for(LIBRARY PACKAGE...)
+function(asks_for library)
+  set(disabled "")
+  foreach(package IN LISTS all)
+    if(NOT package IN_LIST ARGN)
+      list(APPEND disabled -DCMAKE_DISABLE_FIND_PACKAGE_${package}=ON)
+    endif()
+  endforeach()
+  file(REMOVE_RECURSE ${BUILD_DIR})
+  execute_process(COMMAND ${CMAKE_COMMAND} -S ${SOURCE_DIR} -B ${BUILD_DIR} -G ${GENERATOR} -DCMAKE_CXX_COMPILER=${COMPILER}
+    -DBARYCERT_LIBRARIES=${library} ${disabled} RESULT_VARIABLE code OUTPUT_VARIABLE said ERROR_VARIABLE said)
+  if(NOT code EQUAL 0)
+    message(FATAL_ERROR "${library} alone asks for more than ${ARGN}: ${said}")
+  endif()
+endfunction()
+
+set(core hwy FastFloat Boost)
+set(files ${core} Threads ZLIB nlohmann_json)
+set(mesh ${core} TBB)
+asks_for(core ${core})
+asks_for(files ${files})
+asks_for(mesh ${mesh})
+asks_for(sample ${mesh} nlohmann_json)
+asks_for(io_tetgen ${files} ${mesh} fmt)
+asks_for(io ${files} ${mesh} fmt EXPAT LibLZMA)
+asks_for(picture ${files} fmt PNG)
+asks_for(draw ${files} ${mesh} fmt PNG)
