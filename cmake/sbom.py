@@ -93,13 +93,19 @@ def inputs_of(build, ninja, parts):
     return said(ninja, "-C", build, "-t", "inputs", *parts).splitlines() if parts else []
 
 
-def headers_of(build, ninja, parts, inputs):
-    """The headers outside of the project that the objects of the parts were compiled with."""
-    if not parts:
-        return set()
-    objects = {name for name in inputs if name.endswith(".o")}
-    if not objects:
+def objects_of(build, ninja, parts):
+    """The objects that the parts hold: of a program all that is linked, of an archive its own."""
+    objects = {name for name in inputs_of(build, ninja, parts) if name.endswith(".o")}
+    if all(part.endswith(".a") for part in parts):
+        own = tuple(re.sub(r"lib([^/]+)\.a$", r"CMakeFiles/\1.dir/", part) for part in parts)
+        objects = {name for name in objects if name.startswith(own)}
+    if parts and not objects:
         sys.exit("sbom.py: no objects in " + " ".join(parts))
+    return objects
+
+
+def headers_of(build, ninja, objects):
+    """The headers outside of the project that the objects were compiled with."""
     headers = set()
     current = None
     for line in said(ninja, "-C", build, "-t", "deps").splitlines():
@@ -145,8 +151,9 @@ def main():
     parser.add_argument("parts", nargs="*", metavar="PART")
     a = parser.parse_args()
 
-    inputs = inputs_of(a.build, a.ninja, a.parts)
-    headers = headers_of(a.build, a.ninja, a.parts, inputs)
+    objects = objects_of(a.build, a.ninja, a.parts)
+    headers = headers_of(a.build, a.ninja, objects)
+    inputs = inputs_of(a.build, a.ninja, objects)
     embedded = [words for file, *words in EMBEDDED if any(path.endswith(file) for path in inputs)]
     compiled_in, known = packages_of(headers)
     unknown = sorted(headers - known)
