@@ -5,7 +5,7 @@
 /// doubles in any unit. Output: signs, weights, values, gradients, points. Errors are returned as Result or Status.
 /// Nothing prints or exits. Two things throw: a failed allocation (std::bad_alloc), and Result::value() on an Error.
 ///
-/// Laws, each a test of that name (tests/core, tests/core/laws). S1, S2: predicates.hpp. W1, W2, V1, V2, G1: weights.hpp; of
+/// Laws, each a test of that name (tests/core). S1, S2: predicates.hpp. W1, W2, V1, V2, G1: weights.hpp; of
 /// what is drawn in perspective also perspective.hpp.
 ///   D1  Results depend on the input bits alone: not on threads, SIMD target, compiler,
 ///       optimisation, or the order of cases.
