@@ -22,7 +22,16 @@
 #include <vtkTable.h>
 #include <vtkUnsignedCharArray.h>
 
+#include "barycert/certificate.hpp"
 #include "barycert/check.hpp"
+#include "barycert/check_results.hpp"
+#include "barycert/defect.hpp"
+#include "barycert/fix.hpp"
+#include "barycert/measures.hpp"
+#include "barycert/not_finite.hpp"
+#include "barycert/plc.hpp"
+#include "barycert/surface.hpp"
+#include "barycert/surface_report.hpp"
 #include "tests/mesh/check/surfaces.hpp"
 #include "tests/vtk/grids.hpp"
 #include "vtkBarycertCheck.h"

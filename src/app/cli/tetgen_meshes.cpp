@@ -2,6 +2,7 @@
 // building.
 
 #include "audit_inputs.hpp"
+#include "barycert/tetgen_files.hpp"
 #include "files/suffix.hpp"
 
 namespace barycert::cli {

@@ -4,7 +4,16 @@
 
 #include "audit/asking.hpp"
 #include "barycert/audit_job.hpp"
+#include "barycert/certificate.hpp"
 #include "barycert/check.hpp"
+#include "barycert/check_results.hpp"
+#include "barycert/defect.hpp"
+#include "barycert/fix.hpp"
+#include "barycert/measures.hpp"
+#include "barycert/not_finite.hpp"
+#include "barycert/plc.hpp"
+#include "barycert/surface.hpp"
+#include "barycert/surface_report.hpp"
 
 namespace barycert {
 
