@@ -60,7 +60,8 @@ void Blocks::locate_in(const Locator& locator) {
     const locate::LocatorData& data = locate::LocatorData::of(locator);
     cells_ = data.index.cell_count();
     // What pays for all points would not for one block.
-    base::in_arena(threads_, cells_, [&] { data.prepare(std::max<std::uint64_t>(source_.count.value_or(0), taken_)); });
+    base::in_arena(threads_, cells_,
+                   [&] { data.policy.prepare(std::max<std::uint64_t>(source_.count.value_or(0), taken_)); });
 }
 
 void Blocks::run(const Stage& work, const Stage& write) {

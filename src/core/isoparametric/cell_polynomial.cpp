@@ -1,4 +1,5 @@
 #include "core/isoparametric/cell_polynomial.hpp"
+#include "core/vtk_cell.hpp"
 
 #include <algorithm>
 
@@ -91,7 +92,7 @@ const CellBasis& cell_basis(const Reference& of) {
         const auto add = [&](const Reference& one) {
             made[static_cast<std::size_t>(one.element)][static_cast<std::size_t>(one.order) - 1] = make_cell_basis(one);
         };
-        for (const int type : {9, 12, 13, 14}) add(*linear_reference(static_cast<std::uint8_t>(type)));
+        for (const VtkCell type : {vtk_quad, vtk_hexahedron, vtk_wedge, vtk_pyramid}) add(*linear_reference(type));
         for (const std::size_t nodes : {6, 10, 15}) add(*simplex_reference(2, nodes));
         for (const std::size_t nodes : {10, 20, 35}) add(*simplex_reference(3, nodes));
         return made;

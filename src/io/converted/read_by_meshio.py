@@ -2,7 +2,8 @@
 
 It runs in a process of its own, which read_converted.cpp starts.
 
-Arguments: the path, meshio's name of the format, bytes of memory and of output at most, seconds.
+Arguments: the path, meshio's name of the format, bytes of memory and of output at most, seconds, and in JSON VTK's
+numbers of cell types by meshio's names.
 
 Descriptor 3 is for the mesh as a .vtu file, to the bit; stdout for what was read, in JSON; stderr for what meshio
 prints. It ends with stdin, the program that asked. Modules come from no folder that the working directory decides.
@@ -23,7 +24,7 @@ def ends_with_parent():
 
 
 threading.Thread(target=ends_with_parent, daemon=True).start()
-path, kind, memory, output, seconds = sys.argv[1:6]
+path, kind, memory, output, seconds, types = sys.argv[1:7]
 for limit, most in (
     (resource.RLIMIT_AS, memory),
     (resource.RLIMIT_FSIZE, output),
@@ -49,29 +50,7 @@ try:
 except ImportError as error:
     tell(missing=str(error))
 
-TYPES = dict(
-    vertex=1,
-    line=3,
-    triangle=5,
-    polygon=7,
-    quad=9,
-    tetra=10,
-    hexahedron=12,
-    wedge=13,
-    pyramid=14,
-    line3=21,
-    triangle6=22,
-    quad8=23,
-    tetra10=24,
-    hexahedron20=25,
-    wedge15=26,
-    pyramid13=27,
-    quad9=28,
-    hexahedron27=29,
-    triangle7=34,
-    line4=35,
-    polyhedron=42,
-)
+TYPES = json.loads(types)
 lost, files = [], []
 
 

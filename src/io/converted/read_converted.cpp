@@ -31,6 +31,14 @@ base::Text beginning_of(const base::InputFile& file, const std::string& path, co
     return format == "ansys" ? base::Text::head : base::Text::all;
 }
 
+/// The types of cells that meshio has a name for, in JSON: VTK's numbers by names.
+std::string types_by_meshio() {
+    nlohmann::json numbers;
+    for (const CellType& type : cell_types())
+        if (!type.meshio.empty()) numbers[std::string(type.meshio)] = type.number;
+    return numbers.dump();
+}
+
 struct MeshioFile {
     base::Descriptor descriptor;  ///< of the mesh as a .vtu file without a name
     std::string vtu = {};         ///< its path
@@ -60,9 +68,14 @@ MeshioFile run_meshio(const std::string& path, const std::string& format) {
     const std::string memory = std::to_string(static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) / 2 *
                                               static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)));
     const bool packed = path.ends_with(".gz");  // formats that name files beside them are not packed
-    const std::vector<std::string> arguments{
-        "-c",   barycert_meshio_script,           packed ? "/dev/fd/4" : path, format, memory,
-        memory, std::to_string(most_time.count())};
+    const std::vector<std::string> arguments{"-c",
+                                             barycert_meshio_script,
+                                             packed ? "/dev/fd/4" : path,
+                                             format,
+                                             memory,
+                                             memory,
+                                             std::to_string(most_time.count()),
+                                             types_by_meshio()};
     std::string tried;
     for (const std::string& python : pythons) {
         MeshioFile file{.descriptor = base::Descriptor(::memfd_create("barycert-meshio", MFD_CLOEXEC))};
@@ -130,7 +143,7 @@ void check_complete(const Json& answer, const Mesh& mesh, const InSpace& space, 
     need("nodes", answer.at("nodes"), mesh.point_count());
     std::size_t cells = 0;
     for (const auto& [type, count] : answer.at("types").items()) {
-        if (cell_types()[whole_number<std::uint8_t>(type).value_or(0)].dimension() == mesh.dimension)
+        if (mesh::cell_type(whole_number<std::uint8_t>(type).value_or(0)).dimension() == mesh.dimension)
             cells += count.get<std::size_t>();
     }
     if (space.facets.empty()) need("cells of dimension " + std::to_string(mesh.dimension), cells, mesh.whole_count());

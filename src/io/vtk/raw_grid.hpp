@@ -12,11 +12,9 @@
 
 namespace barycert::io {
 
-using enum mesh::VtkCell;
 using mesh::cell_types;
 using mesh::CellKind;
 using mesh::CellType;
-using mesh::VtkCell;
 
 /// The sections of polygon data. VTK numbers the cells of all sections in this order, whatever the order in the file.
 enum Section : std::size_t { vertices, lines, polygons, strips, section_count };

@@ -21,7 +21,8 @@ void add_cells(const StructuredGrid& grid, RawGrid& to) {
     }
     if (wide.empty()) return;
     const bool along_axes = !grid.axes[0].empty();
-    constexpr std::array<std::array<std::uint8_t, 3>, 2> types{{{vtk_line, vtk_quad, 12}, {vtk_line, 8, 11}}};
+    constexpr std::array<std::array<std::uint8_t, 3>, 2> types{
+        {{vtk_line, vtk_quad, vtk_hexahedron}, {vtk_line, vtk_pixel, vtk_voxel}}};
     const std::size_t corners = std::size_t{1} << wide.size();
     std::array<std::size_t, 8> offsets{};
     for (std::size_t corner = 0; corner < corners; ++corner) {
