@@ -14,19 +14,19 @@ using namespace audit;
 namespace {
 
 /// The work for one family and simplex: which kernels take part.
-struct Part {
+struct FamilyOnSimplex {
     std::size_t family;
     Simplex simplex;
     std::vector<std::size_t> kernels;
 };
 
-std::vector<Part> plan(const AuditOptions& options, const MeshSource& meshes) {
-    std::vector<Part> parts;
+std::vector<FamilyOnSimplex> plan(const AuditOptions& options, const MeshSource& meshes) {
+    std::vector<FamilyOnSimplex> parts;
     for (std::size_t f = 0; f < options.families.size(); ++f) {
         for (const Simplex s : all_simplices) {
             const Family& family = options.families[f];
             if (!family.applies_to(s) || (family.needs_mesh && !meshes.supplies(s))) continue;
-            Part part{f, s, {}};
+            FamilyOnSimplex part{f, s, {}};
             for (std::size_t k = 0; k < options.kernels.size(); ++k) {
                 const Kernel& kernel = options.kernels[k];
                 if (kernel.simplex == s && kernel.perspective == family.perspective) part.kernels.push_back(k);
@@ -79,7 +79,7 @@ Result<AuditReport> run_audit(const AuditOptions& options, const MeshSource& mes
     report.count = options.count;
     report.threads = base::threads_for(options.threads);
     if (const Status ok = check_environment(report.environment); !ok) return ok.error();
-    const std::vector<Part> parts = plan(options, meshes);
+    const std::vector<FamilyOnSimplex> parts = plan(options, meshes);
     if (parts.empty())
         return Error{
             .what = "nothing to audit: no family applies to a kernel",
@@ -98,7 +98,7 @@ Result<AuditReport> run_audit(const AuditOptions& options, const MeshSource& mes
     std::atomic<std::uint64_t> done{0};
     std::mutex telling;
     const std::uint64_t total = options.count * parts.size();
-    for (const Part& part : parts) {
+    for (const FamilyOnSimplex& part : parts) {
         const Family& family = options.families[part.family];
         std::vector<Kernel> kernels;
         for (const std::size_t k : part.kernels) kernels.push_back(options.kernels[k]);

@@ -146,7 +146,7 @@ void MeshFigure::choose_cells() {
     for (std::size_t i = 0; i < kept.size(); ++i)
         if (kept[i]) cells.push_back(static_cast<Mesh::Index>(i));
     if (cells.empty()) refuse("", "no cell is left to draw", "a threshold or box that leaves some", "none");
-    mesh::Part part = mesh::part_of(mesh, std::move(cells));
+    mesh::Submesh part = mesh::part_of(mesh, std::move(cells));
     chosen_ = std::move(part.mesh);
     nodes_ = part.nodes;
     if (chosen_.cell_numbers.empty()) chosen_.cell_numbers = part.cells;

@@ -50,7 +50,7 @@ int binomial(int n, int k) {
 void add_parts(CellBasis& basis, std::size_t of) {
     const CellBasis::Exponents& whole = basis.terms[of];
     for (std::size_t to = 0; to < basis.terms.size(); ++to) {
-        CellBasis::Part part{of, to, {}, 1};
+        CellBasis::TermShift part{of, to, {}, 1};
         bool divides = true;
         for (std::size_t k = 0; k < 3; ++k) {
             const int all = whole[k], own = basis.terms[to][k];
@@ -126,7 +126,7 @@ CellCoefficients<N> CellPolynomial::taylor(const CellCoefficients<N>& at_zero, c
         for (std::size_t e = 1; e < powers_each; ++e) powers[k][e] = powers[k][e - 1] * N(x[k]);
     }
     CellCoefficients<N> out{};
-    for (const CellBasis::Part& part : basis_->parts) {
+    for (const CellBasis::TermShift& part : basis_->parts) {
         N by(part.factor);
         for (std::size_t k = 0; k < 3; ++k) {
             if (part.powers[k] != 0) by = by * powers[k][part.powers[k]];

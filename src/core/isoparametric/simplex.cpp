@@ -76,7 +76,7 @@ ToBernstein to_bernstein(const Reference& of) {
     return out;
 }
 
-struct Simplex {
+struct SimplexBasis {
     Reference reference;
     ToBernstein bernstein;
     /// Of the derivative by coordinate k, coefficient i: control points `by[k]` less `by[-]`, of index `index`.
@@ -91,11 +91,11 @@ struct Simplex {
     std::vector<Level> levels;  ///< of degree order - 1, order - 2, ...
 };
 
-const std::array<Simplex, 6>& simplices() {
-    static const std::array<Simplex, 6> all = [] {
-        std::array<Simplex, 6> made;
+const std::array<SimplexBasis, 6>& simplices() {
+    static const std::array<SimplexBasis, 6> all = [] {
+        std::array<SimplexBasis, 6> made;
         for (std::size_t i = 0; i < made.size(); ++i) {
-            Simplex& s = made[i];
+            SimplexBasis& s = made[i];
             s.reference = reference_of(i);
             s.bernstein = to_bernstein(s.reference);
             const auto place = [&](const Index& index) {
@@ -104,7 +104,7 @@ const std::array<Simplex, 6>& simplices() {
             };
             for (const Index& index : s.reference.indices) {
                 if (index[0] == 0) continue;
-                Simplex::Slope slope{index, place(index), {}};
+                SimplexBasis::Slope slope{index, place(index), {}};
                 --slope.index[0];
                 for (std::size_t k = 0; k < s.reference.dimension(); ++k) {
                     Index raised = slope.index;
@@ -115,7 +115,7 @@ const std::array<Simplex, 6>& simplices() {
             }
             std::vector<Index> above = s.reference.indices;
             for (int degree = s.reference.order - 1; degree >= 0; --degree) {
-                Simplex::Level level;
+                SimplexBasis::Level level;
                 std::vector<Index> indices;
                 for (const Index& index : above) {
                     Index lower = index;
@@ -139,13 +139,13 @@ const std::array<Simplex, 6>& simplices() {
     return all;
 }
 
-const Simplex& simplex_of(const Reference& of) {
-    return *std::ranges::find_if(simplices(), [&](const Simplex& s) { return &s.reference == &of; });
+const SimplexBasis& simplex_of(const Reference& of) {
+    return *std::ranges::find_if(simplices(), [&](const SimplexBasis& s) { return &s.reference == &of; });
 }
 
 /// Control points times the denominator, of nodes at place(node, axis).
 template <class N, class Place>
-std::vector<Vector<N>> control_points(const Simplex& s, const Place& place) {
+std::vector<Vector<N>> control_points(const SimplexBasis& s, const Place& place) {
     const std::size_t d = s.reference.dimension(), n = s.reference.nodes;
     std::vector<Vector<N>> points(n, Vector<N>{N(0), N(0), N(0)});
     for (std::size_t i = 0; i < n; ++i) {
@@ -161,7 +161,7 @@ std::vector<Vector<N>> control_points(const Simplex& s, const Place& place) {
 /// Bernstein coefficients of the Jacobian, times one positive number. It is a sum over a coefficient of each
 /// derivative; those whose indices have one sum make a coefficient of its own.
 template <class N, class Place>
-std::vector<N> jacobian_coefficients(const Simplex& s, const Place& place) {
+std::vector<N> jacobian_coefficients(const SimplexBasis& s, const Place& place) {
     const std::vector<Vector<N>> points = control_points<N>(s, place);
     const std::size_t d = s.reference.dimension(), m = s.slopes.size();
     std::array<std::vector<Vector<N>>, 3> v;
@@ -203,7 +203,7 @@ double middle(const Places& places, std::size_t node, std::size_t k, double scal
 
 /// Control points in double, each off by at most 2^-40 of the largest coordinate: sums of at most 35 products with
 /// factors below 100 times the denominator.
-std::vector<Vector<double>> rounded_control_points(const Simplex& s, const Places& places, double scale) {
+std::vector<Vector<double>> rounded_control_points(const SimplexBasis& s, const Places& places, double scale) {
     auto points =
         control_points<double>(s, [&](std::size_t node, std::size_t k) { return middle(places, node, k, scale); });
     for (auto& p : points) {
@@ -219,7 +219,7 @@ public:
     using Coordinates = std::array<double, 4>;   ///< barycentric ones in the reference cell
     using Corners = std::array<Coordinates, 4>;  ///< of a part of it
 
-    explicit Search(const Simplex& s) : s_(s) {}
+    explicit Search(const SimplexBasis& s) : s_(s) {}
 
     /// Leaves out a simplex like the reference cell around `x`, where zero is taken, in which it is taken nowhere else:
     /// with Y about the inverse of the Jacobian there, |1 - Y X'| < 1/2 in all of it. The largest that is found.
@@ -309,7 +309,7 @@ private:
             std::size_t degree = 0;
             for (std::size_t corner = 0; corner < corners; ++corner) {
                 for (int k = 0; k < of[corner]; ++k, ++degree) {
-                    const Simplex::Level& raised = s_.levels[degree];
+                    const SimplexBasis::Level& raised = s_.levels[degree];
                     next.assign(raised.size(), {});
                     for (std::size_t i = 0; i < raised.size(); ++i) {
                         for (std::size_t c = 0; c < corners; ++c) {
@@ -353,7 +353,7 @@ private:
         return true;
     }
 
-    const Simplex& s_;
+    const SimplexBasis& s_;
     Coordinates middle_{};
     double radius_ = 0;
 };
@@ -361,7 +361,7 @@ private:
 }  // namespace
 
 const Reference* simplex_reference(int dimension, std::size_t nodes) {
-    for (const Simplex& s : simplices()) {
+    for (const SimplexBasis& s : simplices()) {
         if (s.reference.nodes == nodes && s.reference.dimension() == static_cast<std::size_t>(dimension))
             return &s.reference;
     }
@@ -369,7 +369,7 @@ const Reference* simplex_reference(int dimension, std::size_t nodes) {
 }
 
 JacobianSign simplex_jacobian_sign(const Reference& of, const Places& places, int bisections) {
-    const Simplex& s = simplex_of(of);
+    const SimplexBasis& s = simplex_of(of);
     const double scale = scale_of(of, places);
     using B = Ball<double>;
     const auto near = [&](std::size_t node, std::size_t k) {

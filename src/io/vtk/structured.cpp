@@ -62,11 +62,11 @@ std::size_t StructuredGrid::cell_count() const {
     return point_count() == 0 ? 0 : cells[0] * cells[1] * cells[2];
 }
 
-void StructuredGrid::append_to(RawGrid& grid, Part part) const {
+void StructuredGrid::append_to(RawGrid& grid, Wanted part) const {
     if (point_count() == 0) return;
-    if (axes[0].empty() && part == Part::all) return add_cells(*this, grid);
+    if (axes[0].empty() && part == Wanted::all) return add_cells(*this, grid);
     if (!axes[0].empty()) grid.unlisted = *this;
-    if (grid.unlisted && (part != Part::all || point_count() == 1)) grid.list_points();
+    if (grid.unlisted && (part != Wanted::all || point_count() == 1)) grid.list_points();
 }
 
 void RawGrid::list_points() {

@@ -76,15 +76,15 @@ void add_extreme_points(const std::vector<Vector>& a, const std::vector<Vector>&
 /// As many of the points as span what all of them do: those whose homogeneous coordinates do not depend on those of the
 /// ones before, by elimination.
 std::vector<Point> spanning(std::size_t d, const std::vector<Point>& points) {
-    struct Row {
+    struct PivotRow {
         std::array<Number, 4> at;
         std::size_t pivot;
     };
-    std::vector<Row> rows;
+    std::vector<PivotRow> rows;
     std::vector<Point> chosen;
     for (const Point& p : points) {
         std::array<Number, 4> v{p.x[0], p.x[1], p.x[2], p.weight};
-        for (const Row& row : rows) {
+        for (const PivotRow& row : rows) {
             const Number factor = v[row.pivot];
             if (factor == 0) continue;
             for (std::size_t k = 0; k < 4; ++k) v[k] = v[k] * row.at[row.pivot] - row.at[k] * factor;

@@ -163,7 +163,7 @@ void leave_out_right_ones(const Checked& c, const NearFaces& faces, std::vector<
 
 }  // namespace
 
-Found<HangingNode> nearly_hanging(const Checked& c, const std::vector<double>& radius, std::size_t limit) {
+LimitedList<HangingNode> nearly_hanging(const Checked& c, const std::vector<double>& radius, std::size_t limit) {
     const int d = c.mesh.dimension;
     std::vector<Box> boxes;
     for (const BoundaryFacet& f : c.boundary) boxes.push_back(box_of(d, placed(c.mesh, f).at.data(), d));

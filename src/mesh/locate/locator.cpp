@@ -203,7 +203,7 @@ Result<Table> Locator::locate_all(std::span<const double> points, int threads, N
     const ExactEnvironment environment;
     if (data_->grid) return locate::not_listed("all cells of points");
     if (Status status = locate::check_size(points, data_->index.dimension()); !status) return status.error();
-    struct Found {
+    struct OwnerOfPoint {
         std::size_t point;
         Location location;
     };
@@ -222,7 +222,7 @@ Result<Table> Locator::locate_all(std::span<const double> points, int threads, N
             locate::Finder finder(*data_, data_->index.nodes.data(), size);
             Table& part = parts[b];
             LocationCounts& counts = part.counts.locations;
-            std::vector<Found> found;
+            std::vector<OwnerOfPoint> found;
             std::array<locate::PointRecord, locate::chunk_size> records;
             for (std::size_t at = 0; at < sorted.size(); at += locate::chunk_size) {
                 const std::size_t n = std::min(locate::chunk_size, sorted.size() - at);
@@ -232,8 +232,8 @@ Result<Table> Locator::locate_all(std::span<const double> points, int threads, N
                 });
             }
             counts.ways.no_cell_near += sorted.left_out();
-            std::ranges::sort(found, {}, [](const Found& f) { return std::pair(f.point, f.location.cell); });
-            const auto same = [&](const Found& f, const Found& g) {  // parts of one cell
+            std::ranges::sort(found, {}, [](const OwnerOfPoint& f) { return std::pair(f.point, f.location.cell); });
+            const auto same = [&](const OwnerOfPoint& f, const OwnerOfPoint& g) {  // parts of one cell
                 return f.point == g.point && mesh().cell_number(f.location.cell) == mesh().cell_number(g.location.cell);
             };
             found.erase(std::unique(found.begin(), found.end(), same), found.end());

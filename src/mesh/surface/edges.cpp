@@ -45,7 +45,7 @@ Surface facets_of(const Mesh& mesh) {
 }
 
 Surface facets_of(const Mesh& mesh, std::vector<Mesh::Index> cells) {
-    const mesh::Part part = mesh::part_of(mesh, std::move(cells));
+    const mesh::Submesh part = mesh::part_of(mesh, std::move(cells));
     Surface out = facets_of(part.mesh);
     for (Mesh::Index& node : out.mesh_edges) node = part.nodes[static_cast<std::size_t>(node)];
     for (Mesh::Index& cell : out.mesh_cells) cell = part.cells[static_cast<std::size_t>(cell)];

@@ -139,16 +139,16 @@ public:
     Json data = {};
 
     using Content = std::variant<Headline, Section, Paragraph, Named, Listing, Item, Pictures>;
-    struct Block {
+    struct Passage {
         Content content;
         For whom;
     };
-    std::vector<Block> blocks = {};
+    std::vector<Passage> blocks = {};
 
     void add(Content content, For whom = For::all) { blocks.push_back({std::move(content), whom}); }
     /// All that `part` says.
     void append(Document part, For whom) {
-        for (Block& block : part.blocks) add(std::move(block.content), whom);
+        for (Passage& block : part.blocks) add(std::move(block.content), whom);
     }
     void section(std::string text, For whom = For::all, int level = 2) { add(Section{std::move(text), level}, whom); }
     /// With a heading on a page alone.

@@ -21,8 +21,8 @@ struct FillBlock {
     Mesh::Index id[max_lanes];
     CellBlock<d> cells;
     BoxBlock<d> boxes;
-    std::uint32_t valid, box;           ///< bits; box: with few points in their boxes
-    typename Values<d>::Block* values;  ///< by component
+    std::uint32_t valid, box;                ///< bits; box: with few points in their boxes
+    typename Values<d>::CellValues* values;  ///< by component
 };
 
 template <int d>
@@ -353,7 +353,7 @@ void fill_all(const FillSource& source, std::span<const locate::Place> cells, co
     const Filling<d> to{source, target, undecided};
     FillBlock<Values, d> blocks[blocks_at_once];
     RowsBlock<d> rows;
-    std::vector<typename Values<d>::Block> values(to.components() * blocks_at_once);
+    std::vector<typename Values<d>::CellValues> values(to.components() * blocks_at_once);
     std::vector<typename Values<d>::RowTerms> terms(to.components());
     for (std::size_t i = 0; i < blocks_at_once; ++i) blocks[i].values = values.data() + i * to.components();
     std::size_t count = 0;

@@ -74,7 +74,7 @@ public:
     /// Calls work(cells), one part of them after the other.
     template <class Work>
     void for_parts(std::size_t slab, Work work) const {
-        for (const Part& part : parts_) {
+        for (const RunOfCells& part : parts_) {
             if (slab < part.first_slab || slab - part.first_slab >= part.cells.size()) continue;
             const std::span<const locate::Place> cells = part.cells[slab - part.first_slab];
             if (!cells.empty()) work(cells);
@@ -83,11 +83,11 @@ public:
 
 private:
     /// Of cells that follow one another: those of each slab, from the first one on.
-    struct Part {
+    struct RunOfCells {
         std::size_t first_slab = 0;
         base::Lists<locate::Place> cells;
     };
-    std::vector<Part> parts_;
+    std::vector<RunOfCells> parts_;
 };
 
 /// Layers [first, last) of the third axis (2D: of the second), and the rows of their points. Keeps its memory from slab
