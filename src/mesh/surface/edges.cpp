@@ -20,7 +20,7 @@ std::vector<std::int32_t> outline_of(const Surface& boundary) {
     };
     constexpr double bend = 0.866;  // cosine of 30 degrees
     std::vector<std::int32_t> segments;
-    for_edges(boundary, [&](std::span<const Edge> edge) {
+    for_edges(boundary, [&](std::span<const TriangleEdge> edge) {
         if (edge.size() != 2 || base::dot(normal(edge[0].second), normal(edge[1].second)) <= bend)
             segments.insert(segments.end(), {edge[0].first.first, edge[0].first.second});
     });
