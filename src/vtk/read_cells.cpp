@@ -8,6 +8,7 @@
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 
+#include "mesh/pulling.hpp"
 #include "vtk/exact_index.hpp"
 
 namespace barycert::in_vtk {

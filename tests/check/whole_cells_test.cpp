@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "barycert/check.hpp"
+#include "mesh/pulling.hpp"
 #include "tests/mesh/shaped_mesh.hpp"
 
 namespace barycert::testing {

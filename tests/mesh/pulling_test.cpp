@@ -2,6 +2,7 @@
 #include <set>
 
 #include "mesh/consistency.hpp"
+#include "mesh/pulling.hpp"
 #include "tests/mesh/shaped_mesh.hpp"
 
 namespace barycert::test {

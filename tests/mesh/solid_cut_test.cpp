@@ -1,4 +1,5 @@
 #include "mesh/solid_cut.hpp"
+#include "mesh/pulling.hpp"
 
 #include "tests/mesh/cut_oracle.hpp"
 #include "tests/mesh/octree_cell.hpp"

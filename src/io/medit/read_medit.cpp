@@ -2,6 +2,7 @@
 #include "core/base/finite.hpp"
 #include "io/medit/medit_file.hpp"
 #include "mesh/mid_edges.hpp"
+#include "mesh/pulling.hpp"
 
 namespace barycert::io::medit {
 namespace {

@@ -2,6 +2,7 @@
 
 #include "core/base/finite.hpp"
 #include "mesh/consistency.hpp"
+#include "mesh/pulling.hpp"
 #include "mesh/surface/facet_triangles.hpp"
 
 namespace barycert::io {
