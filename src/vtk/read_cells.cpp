@@ -8,7 +8,6 @@
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 
-#include "mesh/pulling.hpp"
 #include "vtk/exact_index.hpp"
 
 namespace barycert::in_vtk {

@@ -6,6 +6,7 @@
 #include "core/base/strict_math.hpp"
 #include "mesh/index/box_tree.hpp"
 #include "mesh/pieces/exchange.hpp"
+#include "mesh/pulling.hpp"  // IWYU pragma: export: bindings tell which cells cannot be cut
 #include "mesh/surface/facet_triangles.hpp"
 
 namespace barycert::pieces {
