@@ -94,11 +94,9 @@ void scaled(Case& c, base::Random& random, std::uint64_t) {
     fill(c, random, [&](int) { return std::ldexp(random.uniform(-1, 1), exponent); });
 }
 
-}  // namespace
-
-std::vector<Family> plain_families() {
+/// Points near or on a facet.
+std::vector<Family> families_near_facets() {
     return {
-        // Near or on a facet.
         {"random", "random simplices and points, for comparison", "all coordinates U[-1,1)", every, ordinary},
         {"random.inside", "random simplices, points inside", "U[-1,1), point fl(sum w_i v_i)", every,
          [](Case& c, base::Random& random, std::uint64_t) {
@@ -166,7 +164,12 @@ std::vector<Family> plain_families() {
          near_facet<13>},
         {"near-facet.1e-14", "the same at 1e-14", "U[-1,1), h = +-1e-14", sided, near_facet<14>},
         {"near-facet.1e-15", "the same at 1e-15", "U[-1,1), h = +-1e-15", sided, near_facet<15>},
-        // Of bad shape.
+    };
+}
+
+/// Cells of bad shape.
+std::vector<Family> families_of_bad_shape() {
+    return {
         {"sliver.1e-12", "flat cells: a small divisor magnifies every error", "height 1e-12, point fl(sum w_i v_i)",
          sided, sliver<12>},
         {"sliver.1e-13", "the same at 1e-13", "height 1e-13", sided, sliver<13>},
@@ -226,7 +229,12 @@ std::vector<Family> plain_families() {
              const auto moved = random.below(static_cast<std::uint64_t>(vertex_count(c.simplex) * d));
              move_by_ulp(c, c.vertices[moved], static_cast<int>(moved) % d, random);
          }},
-        // At the ends of the range of doubles, where products and differences under- and overflow.
+    };
+}
+
+/// Coordinates at the ends of the range of doubles, where products and differences under- and overflow.
+std::vector<Family> families_at_ends_of_range() {
+    return {
         {"subnormal", "subnormal coordinates: every product is zero", "k 2^-1074, |k| <= 4096", every,
          [](Case& c, base::Random& random, std::uint64_t) {
              fill(c, random, [&](int) { return random.integer(-4096, 4096) * 0x1p-1074; });
@@ -256,6 +264,15 @@ std::vector<Family> plain_families() {
              random_values(c, random);
          }},
     };
+}
+
+}  // namespace
+
+std::vector<Family> plain_families() {
+    std::vector<Family> all = families_near_facets();
+    for (const auto& more : {families_of_bad_shape(), families_at_ends_of_range()})
+        all.insert(all.end(), more.begin(), more.end());
+    return all;
 }
 
 }  // namespace barycert::audit

@@ -22,7 +22,7 @@ struct Claimant {
 };
 
 /// What one thread has learnt.
-struct Found {
+struct ThreadTally {
     std::vector<ClaimResult> results;
     OracleCounts oracles;
     std::optional<Disagreement> disagreement;
@@ -45,7 +45,7 @@ public:
                      return c.kernel != nullptr && (c.kernel->core || c.kernel->certifies);
                  })) {}
 
-    void run(std::size_t feature, std::uint64_t index, Found& found) const {
+    void run(std::size_t feature, std::uint64_t index, ThreadTally& found) const {
         const GapPoint p = points_.make(claim_features[feature], options_.seed, index);
         ClaimWitness witness{claim_features[feature], index, p.nodes, p.point, {}, {}};
         std::vector<Case> cases;
@@ -198,12 +198,12 @@ Result<GapsReport> find_gaps(const GapsOptions& options, const Mesh& mesh, const
 
     const auto start = std::chrono::steady_clock::now();
     const Finder finder(options, mesh, *claimants);
-    tbb::enumerable_thread_specific<Found> found([&] { return Found{report.results, {}, {}}; });
+    tbb::enumerable_thread_specific<ThreadTally> found([&] { return ThreadTally{report.results, {}, {}}; });
     const std::size_t first = mesh.dimension == 2 ? 1 : 0;  // in the plane no cells share a face
     for (std::size_t feature = first; feature < 3; ++feature)
         on_threads(report.threads, options.count, [&](std::size_t i) { finder.run(feature, i, found.local()); });
     std::optional<Disagreement> disagreement;
-    for (const Found& local : found) {
+    for (const ThreadTally& local : found) {
         report.oracles.add(local.oracles);
         for (std::size_t k = 0; k < report.results.size(); ++k) merge(report.results[k], local.results[k]);
         keep_first(disagreement, local.disagreement);

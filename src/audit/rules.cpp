@@ -7,6 +7,7 @@
 #include "audit/inverses/reference.hpp"
 #include "barycert/locator.hpp"
 #include "core/base/ulp.hpp"
+#include "core/vtk_cell.hpp"
 #include "mesh/pulling.hpp"
 
 namespace barycert {
@@ -139,7 +140,7 @@ ExactInverse exact_inverse(const InverseCase& c) {
     std::array<double, 4 * 8> fields{};
     for (std::size_t i = 0; i < of.nodes; ++i) {
         std::array<double, 3> x = reference_node(c.type, i);
-        if (c.type == 14) x[0] = x[1] = 0;
+        if (c.type == vtk_pyramid) x[0] = x[1] = 0;
         std::copy_n(x.begin(), d, &fields[4 * i]);
         fields[4 * i + 3] = c.values[i];
     }
@@ -197,7 +198,7 @@ void audit_inverses(InverseAudit& audit) {
     const ExactEnvironment environment;
     if (audit.rules.empty()) audit.rules = inverse_rules();
     const std::vector<InverseFamily>& families = inverse_families();
-    constexpr std::array<std::uint8_t, 4> types{9, 12, 13, 14};
+    constexpr std::array<std::uint8_t, 4> types{vtk_quad, vtk_hexahedron, vtk_wedge, vtk_pyramid};
     const auto fits = [&](std::size_t group, const InverseRule& rule) {
         return rule.type == types[group / families.size()];
     };

@@ -153,7 +153,7 @@ void Prediction::add(double kappa, double error) {
     const double units = base::held(error) / unit;
     const std::size_t bin = error_bin(units);
     if (bits >= rows_.size()) rows_.resize(bits + 1);
-    Row& row = rows_[bits];
+    ErrorsOfBits& row = rows_[bits];
     if (bin >= row.errors.size()) row.errors.resize(bin + 1);
     ++row.errors[bin];
     row.worst = std::max(row.worst, units);
@@ -164,8 +164,8 @@ void Prediction::merge(const Prediction& other) {
     const ExactEnvironment environment;
     if (other.rows_.size() > rows_.size()) rows_.resize(other.rows_.size());
     for (std::size_t bits = 0; bits < other.rows_.size(); ++bits) {
-        const Row& theirs = other.rows_[bits];
-        Row& mine = rows_[bits];
+        const ErrorsOfBits& theirs = other.rows_[bits];
+        ErrorsOfBits& mine = rows_[bits];
         if (theirs.errors.size() > mine.errors.size()) mine.errors.resize(theirs.errors.size());
         for (std::size_t k = 0; k < theirs.errors.size(); ++k) mine.errors[k] += theirs.errors[k];
         mine.worst = std::max(mine.worst, theirs.worst);
@@ -175,7 +175,7 @@ void Prediction::merge(const Prediction& other) {
 
 std::uint64_t Prediction::cases() const {
     std::uint64_t sum = 0;
-    for (const Row& row : rows_) sum = std::accumulate(row.errors.begin(), row.errors.end(), sum);
+    for (const ErrorsOfBits& row : rows_) sum = std::accumulate(row.errors.begin(), row.errors.end(), sum);
     return sum;
 }
 
@@ -183,7 +183,7 @@ std::vector<Prediction::Bin> Prediction::bins() const {
     const ExactEnvironment environment;
     std::vector<Bin> out;
     for (std::size_t bits = 0; bits < rows_.size(); ++bits) {
-        const Row& row = rows_[bits];
+        const ErrorsOfBits& row = rows_[bits];
         const std::uint64_t cases = std::accumulate(row.errors.begin(), row.errors.end(), std::uint64_t{0});
         if (cases == 0) continue;
         std::size_t k = 0;

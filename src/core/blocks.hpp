@@ -162,9 +162,9 @@ private:
 
 /// Blocks of MeshQueries or MeshCells, their coordinates gathered.
 template <class Batch>
-class Blocks {
+class CaseBlocks {
 public:
-    explicit Blocks(const Batch& batch)
+    explicit CaseBlocks(const Batch& batch)
         : batch_(batch),
           coordinates_(static_cast<std::size_t>(space_dimension(batch.simplex)) *
                        static_cast<std::size_t>(vertex_count(batch.simplex) + (has_points ? 1 : 0))) {}
@@ -211,9 +211,9 @@ private:
 
 /// Blocks of cases that lie in arrays already.
 template <>
-class Blocks<CaseArrays> {
+class CaseBlocks<CaseArrays> {
 public:
-    explicit Blocks(const CaseArrays& cases) : cases_(cases) {}
+    explicit CaseBlocks(const CaseArrays& cases) : cases_(cases) {}
 
     std::size_t count() const { return cases_.count; }
     CaseBlock block(std::size_t first, std::size_t count) {
@@ -287,7 +287,7 @@ struct ExactCase {
 /// finite.
 template <class Batch, class Decide, class Exact>
 Status for_blocks(const Batch& batch, Tier tier, TierCounts* tiers, Decide decide, Exact exact) {
-    Blocks<Batch> blocks(batch);
+    CaseBlocks<Batch> blocks(batch);
     std::array<std::uint32_t, block_size> undecided;
     TierCounts counts;
     for (std::size_t first = 0; first < blocks.count(); first += block_size) {

@@ -22,7 +22,7 @@ double rounded(const Number& number, const Divisor& divisor, int exponent) {
 /// 2^(128 N - 3) and determinants below 3 * 2^(192 N - 5) < 2^(192 N - 3): no sum overflows. Integer: differences of
 /// 2099 bits, three of them and 3 more, see integer.hpp.
 template <int d>
-bool exact_gradient(const double* vertices, const double* values, double* out) {
+bool exact_gradient_in(const double* vertices, const double* values, double* out) {
     const auto number = [&](int i, int k) { return k < d ? vertices[d * i + k] : values[i]; };
     return with_lattice<d + 1, d + 1>(number, false, [&]<class T>(const Lattice<d + 1, d + 1, T>& lattice) {
         T row[d][d + 1];  // edges from the last vertex, and behind each the difference of the values
@@ -100,7 +100,8 @@ bool values_of(const formulas::Fractions<s, Number>& w, const double* values, in
 }
 
 template <Simplex s>
-bool exact_quadratic(const double* vertices, const double* point, const double* values, int components, double* out) {
+bool exact_quadratic_on(const double* vertices, const double* point, const double* values, int components,
+                        double* out) {
     constexpr int n = vertex_count(s), d = space_dimension(s);
     const auto number = [&](int i, int k) { return i < n ? vertices[d * i + k] : point[k]; };
     return with_lattice<n + 1, d>(number, false, [&]<class T>(const Lattice<n + 1, d, T>& lattice) {
@@ -182,8 +183,8 @@ void values_of(const Projected<T>& p, const double* values, int components, doub
 }  // namespace
 
 bool exact_gradient(Simplex simplex, const double* vertices, const double* values, double* out) {
-    const bool proper = simplex == Simplex::triangle ? exact_gradient<2>(vertices, values, out)
-                                                     : exact_gradient<3>(vertices, values, out);
+    const bool proper = simplex == Simplex::triangle ? exact_gradient_in<2>(vertices, values, out)
+                                                     : exact_gradient_in<3>(vertices, values, out);
     if (!proper) std::fill_n(out, space_dimension(simplex), nan);
     return proper;
 }
@@ -191,8 +192,8 @@ bool exact_gradient(Simplex simplex, const double* vertices, const double* value
 bool exact_quadratic(Simplex simplex, const double* vertices, const double* point, const double* values, int components,
                      double* out) {
     return simplex == Simplex::triangle
-               ? exact_quadratic<Simplex::triangle>(vertices, point, values, components, out)
-               : exact_quadratic<Simplex::tetrahedron>(vertices, point, values, components, out);
+               ? exact_quadratic_on<Simplex::triangle>(vertices, point, values, components, out)
+               : exact_quadratic_on<Simplex::tetrahedron>(vertices, point, values, components, out);
 }
 
 bool exact_perspective(PerspectiveAnswer what, const double* vertices, const double* point, const double* values,

@@ -33,7 +33,7 @@ namespace barycert::core::HWY_NAMESPACE {
 
 /// Cells of the points that come next: what is read there is asked of memory so many vectors ahead.
 constexpr std::size_t ahead = 4, some = 8 * (ahead + 1);
-struct Found {
+struct FoundCells {
     HWY_ALIGN double low[3][some], high[3][some];  ///< the planes of cells; of points outside those of some cell
     HWY_ALIGN std::int64_t node[some];             ///< the lowest one
 };
@@ -80,7 +80,7 @@ HWY_INLINE void load_points(D tag, const AxisGrid& grid, const double* from, V (
 /// Cells and features of points from `first` on, into `found` from `at` on; fetches their values.
 template <class D>
 HWY_INLINE void find_some(D tag, const AxisGrid& grid, const GridPoints& of, std::size_t first, std::size_t at,
-                          Found& found) {
+                          FoundCells& found) {
     using V = hn::Vec<D>;
     constexpr std::size_t width = hn::MaxLanes(D());
     const hn::RebindToSigned<D> integers;
@@ -177,7 +177,7 @@ struct GridLanes {
 
     HWY_INLINE V set(double x) const { return hn::Set(tag, x); }
 
-    HWY_INLINE GridLanes(D d, const AxisGrid& g, const double* points, const Found& found, std::size_t at)
+    HWY_INLINE GridLanes(D d, const AxisGrid& g, const double* points, const FoundCells& found, std::size_t at)
         : tag(d), grid(g), node(found.node + at) {
         V p[3];
         load_points(tag, grid, points, p);
@@ -291,7 +291,7 @@ struct GridPart {
 
 template <class D>
 HWY_INLINE hn::Mask<D> values_of_some(D tag, const AxisGrid& grid, const GridPoints& of, std::size_t first,
-                                      std::size_t at, const Found& found) {
+                                      std::size_t at, const FoundCells& found) {
     const GridLanes<D> lanes(tag, grid, of.points.data() + grid.dimension * first, found, at);
     hn::Mask<D> sure = lanes.certain;
     const auto set_all = [&](const auto& value_of) HWY_ATTR {
@@ -311,7 +311,7 @@ HWY_INLINE hn::Mask<D> values_of_some(D tag, const AxisGrid& grid, const GridPoi
 
 std::size_t sample_all(const AxisGrid& grid, const GridPoints& of, std::uint32_t* undecided) {
     const std::size_t count = of.points.size() / grid.dimension;
-    Found found;
+    FoundCells found;
     UndecidedList list{undecided};
     std::size_t first = 0;
     const auto run = [&](auto tag) HWY_ATTR {

@@ -15,7 +15,7 @@ double part_of(const Figure& f) {
     return f.dimension == 2 && f.options.axes != Axes::none ? 0.97 : 0.94;
 }
 
-Rgba ink(const FigureOptions& o) {
+Rgba ink_of(const FigureOptions& o) {
     return look_of("axis", is_dark(o.background)).colour;
 }
 
@@ -182,7 +182,7 @@ private:
             corners_.insert(corners_.end(), at.begin(), at.end());
             edges_.push_back(static_cast<int>(i));  // until the camera is known, which is to see them all
         }
-        f_.lines.push_back({.points = corners_, .segments = edges_, .width = 1, .colour = ink(o_)});
+        f_.lines.push_back({.points = corners_, .segments = edges_, .width = 1, .colour = ink_of(o_)});
         return true;
     }
 

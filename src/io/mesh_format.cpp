@@ -99,24 +99,24 @@ Error missing(const std::string& path) {
 }
 
 /// What a file is: a format that is read, or another one. Of a file that is there, and not TetGen's by a stem.
-struct Found {
+struct KnownFormat {
     std::optional<MeshFormat> format;
     const OtherFormat* other = nullptr;
 };
 
-Result<Found> look_at(const std::string& path) {
+Result<KnownFormat> look_at(const std::string& path) {
     const Result<std::string> head = base::InputFile::head(path, 4096);
     if (!head) return head.error();
     const std::optional<MeshFormat> by_content = format_by_content(*head), by_suffix = format_by_suffix(path);
-    if (by_content) return Found{by_content};
+    if (by_content) return KnownFormat{by_content};
     if (const OtherFormat* other = other_format_by_content(*head, path, by_suffix.has_value()); other != nullptr)
-        return Found{{}, other};
-    if (by_suffix) return Found{by_suffix};
-    return Found{{}, other_format_by_suffix(path)};
+        return KnownFormat{{}, other};
+    if (by_suffix) return KnownFormat{by_suffix};
+    return KnownFormat{{}, other_format_by_suffix(path)};
 }
 
 Result<MeshFormat> format_of_file(const std::string& path) {
-    const Result<Found> found = look_at(path);
+    const Result<KnownFormat> found = look_at(path);
     if (!found) return found.error();
     if (found->format) return *found->format;
     if (found->other != nullptr && found->other->meshio != nullptr) return MeshFormat::by_meshio;
@@ -152,7 +152,7 @@ Result<MeshFormat> mesh_format(const std::string& path) {
 }
 
 std::string meshio_format(const std::string& path) {
-    const Result<Found> found = look_at(path);
+    const Result<KnownFormat> found = look_at(path);
     return found && found->other != nullptr && found->other->meshio != nullptr ? found->other->meshio : "";
 }
 

@@ -30,7 +30,7 @@ CellMaps::Nodes CellMaps::nodes(std::size_t whole) const {
     };
     if (has_shapes()) {
         add(mesh_.shapes.nodes_of(whole));
-        if (mesh_.shapes.types[whole] == 8 || mesh_.shapes.types[whole] == 11) {
+        if (const std::uint8_t type = mesh_.shapes.types[whole]; numbered_round(type) != type) {
             std::swap(nodes.at[2], nodes.at[3]);
             std::swap(nodes.at[6], nodes.at[7]);
         }

@@ -10,8 +10,8 @@ Field rows_of(const Field& whole, const std::vector<Mesh::Index>& rows) {
     return field;
 }
 
-Part part_of(const Mesh& mesh, std::vector<Mesh::Index> cells) {
-    Part part;
+Submesh part_of(const Mesh& mesh, std::vector<Mesh::Index> cells) {
+    Submesh part;
     part.cells = std::move(cells);
     part.mesh.dimension = mesh.dimension;
     append_rows_of(mesh.cells, mesh.corners(), part.cells, part.mesh.cells);

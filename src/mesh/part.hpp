@@ -26,13 +26,13 @@ void keep_rows(std::vector<T>& values, std::size_t size, const std::vector<Mesh:
 
 Field rows_of(const Field& whole, const std::vector<Mesh::Index>& rows);
 
-struct Part {
+struct Submesh {
     Mesh mesh;                       ///< points, cells and mid-edge nodes alone, in their order; no fields
     std::vector<Mesh::Index> cells;  ///< of the whole mesh, by cell of the part
     std::vector<Mesh::Index> nodes;  ///< likewise
 };
 
 /// Precondition: `cells` are cells of the mesh, ascending, and the mesh is consistent as far as these are concerned.
-Part part_of(const Mesh& mesh, std::vector<Mesh::Index> cells);
+Submesh part_of(const Mesh& mesh, std::vector<Mesh::Index> cells);
 
 }  // namespace barycert::mesh

@@ -22,28 +22,6 @@ namespace {
 
 using Index = Mesh::Index;
 
-/// VTK documents one order of its nodes, the triangle of the first three seen from outside, and its own functions have
-/// the other, as Gmsh, Medit and Exodus have it; files have both. So its order tells nothing, and its parts are turned
-/// to positive orientation.
-constexpr std::uint8_t vtk_hexahedron = 12, vtk_wedge = 13, vtk_pyramid = 14;
-
-constexpr auto known_shapes = [] {
-    std::array<Shape, 72> all{};
-    all[vtk_triangle] = all[vtk_quadratic_triangle] = all[69] = {2, 3, "012"};
-    all[vtk_triangle_strip] = all[vtk_polygon] = {2, 0, {}};
-    all[8] = {2, 4, "0132"};
-    all[vtk_quad] = {2, 4, "0123"};
-    all[vtk_tetra] = all[vtk_quadratic_tetra] = all[71] = {3, 4, "013 123 203 021"};
-    all[11] = {3, 8, "0462 1375 0154 2673 0231 4576"};
-    all[12] = {3, 8, "0473 1265 0154 3762 0321 4567"};
-    all[13] = {3, 6, "012 354 0341 1452 2530"};
-    all[14] = {3, 5, "0321 014 124 234 304"};
-    all[15] = {3, 10, "04321 56789 0165 1276 2387 3498 4059"};
-    all[16] = {3, 12, "054321 6789ab 0176 1287 2398 34a9 45ba 506b"};
-    all[vtk_polyhedron] = {3, 0, {}};
-    return all;
-}();
-
 /// Which edges and faces of a type have some of its places.
 class Faces {
 public:
@@ -182,7 +160,8 @@ public:
         const std::uint8_t type = mesh_.shapes.types[cell];
         std::span<const Index> nodes = mesh_.shapes.nodes_of(cell);
         if (is_curved_simplex(type)) nodes = nodes.first(mesh_.corners());
-        if (shape_of(type).dimension != mesh_.dimension) return cut_rings(cell, {});
+        const CellType& known = cell_type(type);
+        if (!known.in_shapes || known.dimension() != mesh_.dimension) return cut_rings(cell, {});
         if (type == vtk_polyhedron) return cut_polyhedron(cell);
         const std::uint64_t kind = type == vtk_triangle_strip ? 2 : 1;  // no other key has such bits
         if (type == vtk_triangle_strip) {
@@ -348,27 +327,6 @@ private:
 };
 
 }  // namespace
-
-Shape shape_of(std::uint8_t type) {
-    return type < known_shapes.size() ? known_shapes[type] : Shape();
-}
-
-const Rings& rings_of(std::uint8_t type) {
-    static const auto all = [] {
-        std::array<Rings, known_shapes.size()> types;
-        for (std::size_t i = 0; i < types.size(); ++i) {
-            if (!known_shapes[i].faces.empty()) types[i].emplace_back();
-            for (const char c : known_shapes[i].faces) {
-                if (c == ' ')
-                    types[i].emplace_back();
-                else
-                    types[i].back().push_back(c <= '9' ? c - '0' : c - 'a' + 10);
-            }
-        }
-        return types;
-    }();
-    return all[type < all.size() ? type : 0];
-}
 
 std::optional<std::size_t> pull(Mesh& mesh, std::span<const Index> numbers, std::size_t* otherwise) {
     constexpr std::size_t step = std::size_t{1} << 14;

@@ -12,31 +12,9 @@
 
 #include "barycert/mesh.hpp"
 #include "barycert/simplex.hpp"
+#include "mesh/cell_types.hpp"
 
 namespace barycert::mesh {
-
-struct Shape {
-    int dimension = 0;            ///< 2, 3; 0: none that can be cut
-    std::size_t corners = 0;      ///< 0: any number
-    std::string_view faces = {};  ///< rings of corners in base 16, seen from outside; empty: the nodes tell
-};
-/// Of VTK's type of that number; of curved simplices their corners.
-Shape shape_of(std::uint8_t type);
-const std::vector<std::vector<Mesh::Index>>& rings_of(std::uint8_t type);
-
-/// Triangles and tetrahedra of order 2 to 4: VTK's quadratic and Lagrange ones, whose corners come first.
-constexpr bool is_curved_simplex(std::uint8_t type) {
-    return type == 22 || type == 24 || type == 69 || type == 71;
-}
-
-/// Of a simplex with so many nodes: 2 to 4; 0 if it is another.
-constexpr int simplex_order(int dimension, std::size_t nodes) {
-    constexpr std::array<std::array<std::size_t, 3>, 2> counts{{{6, 10, 15}, {10, 20, 35}}};
-    for (std::size_t i = 0; i < 3; ++i) {
-        if (counts[dimension == 3 ? 1 : 0][i] == nodes) return static_cast<int>(i) + 2;
-    }
-    return 0;
-}
 
 /// Makes cells of mesh.shapes, which has all but `parts` and `inside`. A cell that is flat, or cannot be cut,
 /// has one part, a degenerate one. `otherwise`, if given, gets how many are cut, but not at their lowest node and those

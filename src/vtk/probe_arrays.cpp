@@ -256,7 +256,7 @@ void ProbeArrays::write(const TableView& rows, const vtkIdType* ids, vtkIdType f
     char* const valid = mask_->GetPointer(0);
     for (std::size_t i = 0; i < rows.row_count(); ++i) {
         const vtkIdType point = ids != nullptr ? ids[i] : first + static_cast<vtkIdType>(i);
-        Row row{first_tuple_ + point, i, rows.cells[i], true};
+        ProbedPoint row{first_tuple_ + point, i, rows.cells[i], true};
         if (row.cell < 0 && !cells_.data.empty() && !std::isnan(rows.values[i * stride + columns_]))
             row = {row.point, i, static_cast<Mesh::Index>(rows.values[i * stride + columns_]), false};
         if (row.cell < 0) continue;
@@ -282,7 +282,7 @@ void ProbeArrays::write(const TableView& rows, const vtkIdType* ids, vtkIdType f
 }
 
 // The sign of the exact value less a threshold, where rounding twice could make a difference.
-Sign ProbeArrays::side(const Sampled& array, int component, const Row& row, const PlaceOfRow& place,
+Sign ProbeArrays::side(const Sampled& array, int component, const ProbedPoint& row, const PlaceOfRow& place,
                        double threshold) const {
     // A value at the nearest point, which is rounded itself; or one that is not linear.
     if (!row.inside || !index_.straight(row.cell)) return Sign::zero;
@@ -304,7 +304,7 @@ template <class T, class Set>
 void ProbeArrays::write_values(const Sampled& array, const TableView& rows, std::size_t stride, const PlaceOfRow& place,
                                const Set& set) const {
     const int components = fields_[array.field].components;
-    for (const Row& row : rows_) {
+    for (const ProbedPoint& row : rows_) {
         const double* const values = rows.values.data() + row.row * stride + array.column;
         for (int c = 0; c < components; ++c)
             set(row.point * components + c,
@@ -317,7 +317,7 @@ void ProbeArrays::write_nodes(const PlaceOfRow& place) const {
     if (nearest_.empty() && mixed_.empty()) return;
     vtkNew<vtkIdList> nodes;
     std::vector<double> weights;
-    for (const Row& row : rows_) {
+    for (const ProbedPoint& row : rows_) {
         std::array<double, 3> point{}, x{};
         place(row.row, point.data());
         index_.place(point.data(), x.data());

@@ -70,7 +70,7 @@ private:
     struct Copied {
         vtkAbstractArray *from, *to;
     };
-    struct Row {
+    struct ProbedPoint {
         vtkIdType point;
         std::size_t row;
         Mesh::Index cell;
@@ -79,7 +79,8 @@ private:
 
     void add_point_arrays(vtkDataSet& source, vtkDataSet& output, bool categorical);
     void add_cell_arrays(vtkDataSet& source, vtkDataSet& output);
-    Sign side(const Sampled& array, int component, const Row& row, const PlaceOfRow& place, double threshold) const;
+    Sign side(const Sampled& array, int component, const ProbedPoint& row, const PlaceOfRow& place,
+              double threshold) const;
     template <class T, class Set>
     void write_values(const Sampled& array, const TableView& rows, std::size_t stride, const PlaceOfRow& place,
                       const Set& set) const;
@@ -98,7 +99,7 @@ private:
     std::vector<std::string> inexact_;
     std::vector<Mesh::Index>* owners_ = nullptr;
     vtkIdType first_tuple_ = 0;
-    std::vector<Row> rows_;  ///< those with a value, of the block that is being written
+    std::vector<ProbedPoint> rows_;  ///< those with a value, of the block that is being written
     std::size_t columns_ = 0;
 };
 

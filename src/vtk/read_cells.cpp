@@ -98,7 +98,7 @@ void note(ExactIndex& index, std::size_t count, const char* what) {
 
 // Why the nodes of a cell are not those of its type, or none of so many points (0: they may be any); empty if they are.
 std::string fault_of_nodes(const mesh::CellType& type, const std::vector<Mesh::Index>& nodes, std::size_t points) {
-    const std::size_t least = std::max<std::size_t>(mesh::shape_of(type.linear).corners, 3);
+    const std::size_t least = std::max<std::size_t>(type.corners, 3);
     const bool few = nodes.size() < least || mesh::corners_of(type, nodes).size() < least;
     if (type.nodes != 0 ? nodes.size() != type.nodes : few) return " has " + std::to_string(nodes.size()) + " nodes";
     const auto is_point = [&](Mesh::Index node) { return points == 0 || static_cast<std::size_t>(node) < points; };
@@ -114,7 +114,7 @@ std::string make_surface(Cells& cells, const std::vector<Mesh::Index>& kept, Exa
         std::vector<Mesh::Index> nodes;
         for (const Mesh::Index cell : kept) {
             cells.nodes(cell, nodes);
-            const bool cut = cells.number(cell) != mesh::vtk_triangle_strip && nodes.size() > 3;
+            const bool cut = cells.number(cell) != vtk_triangle_strip && nodes.size() > 3;
             if (cut && !is_finite) return "it has polygons, and a coordinate that is not finite";
             index.uncut += surface::add_triangles(surface.points, cells.type(cell), nodes, surface.cells);
             index.by_corners += mesh::corners_of(cells.type(cell), nodes).size() < nodes.size() ? 1 : 0;
@@ -171,12 +171,12 @@ std::string look_at_cells(vtkDataSet& data, pieces::PieceFacts& facts) {
         const mesh::CellType& type = cells.type(i);
         const int number = cells.number(i);
         if (type.kind == mesh::CellKind::other)
-            return name_of(static_cast<Mesh::Index>(i)) + " is a " + type.name + ", whose corners are not known";
+            return name_of(static_cast<Mesh::Index>(i)) + " is a " + type.name() + ", whose corners are not known";
         if (type.dimension() < facts.dimension) continue;
         if (type.dimension() > facts.dimension) facts = {.dimension = type.dimension()};
         facts.low_type = std::min(facts.low_type, number);
         facts.high_type = std::max(facts.high_type, number);
-        if (mesh::shape_of(type.linear).corners != static_cast<std::size_t>(type.dimension()) + 1)
+        if (type.corners != static_cast<std::size_t>(type.dimension()) + 1)
             facts.nodes_numbered = data.GetPointData()->GetGlobalIds() != nullptr;
         nodes.clear();
         if (facts.dimension == 2 && !cells.is_ghost(i)) cells.nodes(i, nodes);
@@ -224,7 +224,7 @@ std::string read_cells(vtkDataSet& data, ExactIndex& index) {
             return name_of(cell) + fault;
         if (shape.mixed) {
             index.by_corners += mesh::add_shape(mesh, cells.number(cell), nodes) ? 0 : 1;
-            if (cells.number(cell) == mesh::vtk_polyhedron) cells.faces(cell, shapes);
+            if (cells.number(cell) == vtk_polyhedron) cells.faces(cell, shapes);
         } else {
             const auto mid = nodes.begin() + static_cast<std::ptrdiff_t>(mesh.corners());
             mesh.cells.insert(mesh.cells.end(), nodes.begin(), mid);

@@ -20,7 +20,7 @@ Mesh random_mesh(int dimension, bool quadratic, base::Random& random) {
     return mesh;
 }
 
-TEST(Part, HasTheCellsTheirNodesAndTheirValues) {
+TEST(Submesh, HasTheCellsTheirNodesAndTheirValues) {
     base::Random random(5);
     for (int round = 0; round < 200; ++round) {
         const int d = 2 + static_cast<int>(random.below(2));
@@ -37,7 +37,7 @@ TEST(Part, HasTheCellsTheirNodesAndTheirValues) {
         for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
             if (random.below(one_in) == 0) cells.push_back(static_cast<Mesh::Index>(c));
         }
-        const Part part = part_of(mesh, cells);
+        const Submesh part = part_of(mesh, cells);
         ASSERT_EQ(part.cells, cells);
         ASSERT_EQ(part.mesh.cell_count(), cells.size());
         ASSERT_EQ(part.mesh.point_count(), part.nodes.size());

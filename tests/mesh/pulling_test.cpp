@@ -2,13 +2,14 @@
 #include <set>
 
 #include "mesh/consistency.hpp"
+#include "mesh/pulling.hpp"
 #include "tests/mesh/shaped_mesh.hpp"
 
 namespace barycert::test {
 namespace {
 
 using Index = Mesh::Index;
-using mesh::shape_of;
+using mesh::cell_type;
 
 constexpr std::array<std::uint8_t, 7> solids{10, 11, 12, 13, 14, 15, 16};
 constexpr std::array<std::uint8_t, 3> polygons{7, 8, 9};
@@ -66,7 +67,7 @@ TEST(Pulling, FillsAConvexCellFromItsLowestNodeInAllNumberings) {
             ++orders;
         });
         EXPECT_EQ(wrong, 0U) << "type " << int{type} << ", " << orders << " orders";
-        if (mesh::shape_of(type).dimension == 2) continue;
+        if (mesh::cell_type(type).dimension() == 2) continue;
         std::vector<Index> order = first_numbers(nodes);
         std::mt19937 random(11);
         for (int i = 0; i < 300; ++i) {
@@ -83,8 +84,8 @@ TEST(Pulling, FillsAConvexCellFromItsLowestNodeInAllNumberings) {
 /// Which features of a convex cell have the point, by the planes (lines) of its faces.
 Feature feature_by_planes(std::uint8_t type, const std::array<int, 3>& p) {
     const auto places = places_of(type);
-    const bool flat = shape_of(type).dimension == 2;
-    const std::string faces = type == 7 ? "012345" : std::string(shape_of(type).faces);
+    const bool flat = cell_type(type).dimension() == 2;
+    const std::string faces = type == 7 ? "012345" : std::string(cell_type(type).faces);
     std::vector<std::vector<std::size_t>> rings(1);
     for (const char c : faces) {
         if (c == ' ') {
@@ -154,7 +155,7 @@ TEST(Pulling, FeaturesAreThoseOfTheWholeCell) {
         for (int round = 0; round < 24; ++round) {
             std::vector<Index> order = first_numbers(places_of(type).size());
             std::ranges::shuffle(order, random);
-            const bool polyhedron = shape_of(type).dimension == 3 && round % 3 == 0;
+            const bool polyhedron = cell_type(type).dimension() == 3 && round % 3 == 0;
             Mesh mesh = one_cell(type, order, polyhedron);
             cut(mesh);
             for (int x = -3; x <= 9; ++x) {
@@ -176,7 +177,7 @@ TEST(Pulling, FeaturesAreThoseOfTheWholeCell) {
                 }
             }
         }
-        EXPECT_EQ(seen.size(), shape_of(type).dimension == 3 ? 5U : 4U) << int{type};
+        EXPECT_EQ(seen.size(), cell_type(type).dimension() == 3 ? 5U : 4U) << int{type};
     }
 }
 
@@ -281,7 +282,7 @@ TEST(Pulling, ACollapsedCellFillsWhatIsLeft) {
 
 TEST(Pulling, APolyhedronWhoseFacesDoNotCloseIsTold) {
     for (const std::uint8_t type : solids) {
-        const std::size_t faces = static_cast<std::size_t>(std::ranges::count(shape_of(type).faces, ' ')) + 1;
+        const std::size_t faces = static_cast<std::size_t>(std::ranges::count(cell_type(type).faces, ' ')) + 1;
         for (std::size_t missing = 0; missing < faces; ++missing) {
             Mesh whole = one_cell(type, first_numbers(places_of(type).size()), true), open;
             open.points = whole.points;
@@ -295,7 +296,7 @@ TEST(Pulling, APolyhedronWhoseFacesDoNotCloseIsTold) {
                 if (f != missing) rings.push_back(ring);
             }
             if (whole.point_count() < 5) open.points.resize(15);
-            add_shape(open, mesh::vtk_polyhedron, whole.shapes.nodes, rings);
+            add_shape(open, vtk_polyhedron, whole.shapes.nodes, rings);
             EXPECT_EQ(mesh::pull(open), 1U) << int{type};
         }
     }
@@ -324,7 +325,7 @@ TEST(Pulling, PolyhedraWhoseFacesAreTurnedAnyWayAreFilled) {
 TEST(Pulling, ARingMayPassANodeTwice) {
     Mesh mesh;
     mesh.points = {0, 0, 0, 6, 0, 0, 0, 6, 0, -6, 0, 0, 0, -6, 0, 0, 0, 6, -1, -1, 6};
-    add_shape(mesh, mesh::vtk_polyhedron, {0, 1, 2, 3, 4, 5, 6},
+    add_shape(mesh, vtk_polyhedron, {0, 1, 2, 3, 4, 5, 6},
               {{0, 1, 2, 0, 3, 4}, {0, 1, 5}, {1, 2, 5}, {2, 0, 5}, {0, 3, 6}, {3, 4, 6}, {4, 0, 6}});
     cut(mesh);
     ASSERT_EQ(mesh.cell_count(), 2U);
@@ -357,7 +358,7 @@ TEST(Pulling, AStripIsItsTriangles) {
     Mesh mesh;
     mesh.dimension = 2;
     mesh.points = {0, 0, 0, 2, 2, 0, 2, 2, 4, 0};
-    add_shape(mesh, mesh::vtk_triangle_strip, {0, 1, 2, 3, 4});
+    add_shape(mesh, vtk_triangle_strip, {0, 1, 2, 3, 4});
     cut(mesh);
     ASSERT_EQ(mesh.cell_count(), 3U);
     EXPECT_EQ(filled(mesh), 12);

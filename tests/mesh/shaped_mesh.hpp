@@ -7,7 +7,7 @@
 #include <numeric>
 #include <random>
 
-#include "mesh/cell_types.hpp"
+#include "mesh/pulling.hpp"
 
 namespace barycert::test {
 
@@ -70,7 +70,7 @@ inline void cut(Mesh& mesh) {
 inline Mesh one_cell(std::uint8_t type, const std::vector<Mesh::Index>& order, bool as_polyhedron = false) {
     const auto places = places_of(type);
     Mesh mesh;
-    mesh.dimension = mesh::shape_of(type).dimension;
+    mesh.dimension = mesh::cell_type(type).dimension();
     const auto d = static_cast<std::size_t>(mesh.dimension);
     mesh.points.resize(d * places.size());
     for (std::size_t i = 0; i < places.size(); ++i) {
@@ -83,7 +83,7 @@ inline Mesh one_cell(std::uint8_t type, const std::vector<Mesh::Index>& order, b
             for (const Mesh::Index place : places_of_ring) ring.push_back(order[static_cast<std::size_t>(place)]);
         }
     }
-    add_shape(mesh, as_polyhedron ? std::uint8_t{mesh::vtk_polyhedron} : type, order, rings);
+    add_shape(mesh, as_polyhedron ? std::uint8_t{vtk_polyhedron} : type, order, rings);
     return mesh;
 }
 

@@ -1,4 +1,5 @@
 #include "mesh/solid_cut.hpp"
+#include "mesh/pulling.hpp"
 
 #include "tests/mesh/cut_oracle.hpp"
 #include "tests/mesh/octree_cell.hpp"
@@ -15,7 +16,7 @@ Mesh mesh_of(const PlacedRings& cell, const std::vector<Index>& order, const std
     for (std::size_t i = 0; i < cell.places.size(); ++i) {
         for (std::size_t k = 0; k < 3; ++k) mesh.points[3 * static_cast<std::size_t>(order[i]) + k] = cell.places[i][k];
     }
-    add_shape(mesh, mesh::vtk_polyhedron, order, rings);
+    add_shape(mesh, vtk_polyhedron, order, rings);
     return mesh;
 }
 
@@ -192,13 +193,13 @@ TEST(SolidCut, APolyhedronWithoutTetrahedraIsTold) {
     Mesh mesh;
     mesh.points = {6, 0, 0, -3, 5, 0, -3, -5, 0, 5, 4, 6, -6, 2, 6, 1, -6, 6};
     add_shape(mesh, 10, {0, 1, 2, 3});
-    add_shape(mesh, mesh::vtk_polyhedron, {0, 1, 2, 3, 4, 5},
+    add_shape(mesh, vtk_polyhedron, {0, 1, 2, 3, 4, 5},
               {{0, 2, 1}, {3, 4, 5}, {0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}, {2, 0, 3}, {2, 3, 5}});
     // One way the sides bend outwards, the other way inwards.
     Mesh turned;
     turned.points = mesh.points;
     add_shape(turned, 10, {0, 1, 2, 3});
-    add_shape(turned, mesh::vtk_polyhedron, {0, 1, 2, 3, 4, 5},
+    add_shape(turned, vtk_polyhedron, {0, 1, 2, 3, 4, 5},
               {{0, 2, 1}, {3, 4, 5}, {0, 1, 3}, {1, 4, 3}, {1, 2, 4}, {2, 5, 4}, {2, 0, 5}, {0, 3, 5}});
     cut(mesh);
     cut(turned);

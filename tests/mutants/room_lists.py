@@ -44,7 +44,7 @@ LOCATE = [
     ("nearest.cpp", "limited_ ? limit + 0x1p-1074L : 0", "limit", "a limit that is a distance rounded"),
     ("nearest.cpp", "return found.distance <= limit ? found : none;", "return found;", "beyond the limit"),
     ("nearest.cpp", "(below + fan - 1) / fan", "below / fan", "the last box of a level"),
-    ("locator_data.hpp", "        std::erase_if(place, [&](Place c) { return std::ranges::binary_search(degenerate, c); });\n", "",
+    ("node_cells.hpp", "        std::erase_if(place, [&](Place c) { return std::ranges::binary_search(degenerate, c); });\n", "",
      "degenerate cells at a node"),
     ("occupancy.cpp", "width - 1 - last % width", "width - last % width", "the last bin of a row"),
     ("cells_at_points.cpp", "~std::uint64_t{0} >> (63 - x1 % 64)", "~std::uint64_t{0} >> (64 - x1 % 64)", "the last bin of a row"),

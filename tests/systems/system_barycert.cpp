@@ -5,6 +5,7 @@
 
 #include "barycert/sampler.hpp"
 #include "io/formats.hpp"
+#include "mesh/pulling.hpp"
 #include "tests/systems/exchange.hpp"
 
 namespace {

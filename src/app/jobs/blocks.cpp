@@ -24,7 +24,7 @@ std::size_t size_of_blocks(std::optional<std::uint64_t> points, int threads, std
 }
 
 struct OnTheWay {
-    Block block;
+    BlockOfRows block;
     std::exception_ptr fault;
     double seconds = 0;
 
@@ -42,7 +42,7 @@ struct OnTheWay {
 
 }  // namespace
 
-void Blocks::read(Block& block) {
+void BlockPipeline::read(BlockOfRows& block) {
     Stopwatch watch;
     block.first = taken_;
     block.size = 0;
@@ -56,14 +56,15 @@ void Blocks::read(Block& block) {
     block.last = !more_;
 }
 
-void Blocks::locate_in(const Locator& locator) {
+void BlockPipeline::locate_in(const Locator& locator) {
     const locate::LocatorData& data = locate::LocatorData::of(locator);
     cells_ = data.index.cell_count();
     // What pays for all points would not for one block.
-    base::in_arena(threads_, cells_, [&] { data.prepare(std::max<std::uint64_t>(source_.count.value_or(0), taken_)); });
+    base::in_arena(threads_, cells_,
+                   [&] { data.policy.prepare(std::max<std::uint64_t>(source_.count.value_or(0), taken_)); });
 }
 
-void Blocks::run(const Stage& work, const Stage& write) {
+void BlockPipeline::run(const Stage& work, const Stage& write) {
     const int workers = base::threads_of(threads_);
     // Blocks leave in the order in which they came: before one comes, the last but so many has left.
     std::vector<OnTheWay> ring(static_cast<std::size_t>(workers) + 2);
@@ -83,7 +84,7 @@ void Blocks::run(const Stage& work, const Stage& write) {
         if (first_)
             b.block = *std::exchange(first_, std::nullopt);
         else
-            b.run([&](Block& block) { read(block); });
+            b.run([&](BlockOfRows& block) { read(block); });
         ended = !b.goes_on();
         return &b;
     };

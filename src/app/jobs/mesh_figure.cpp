@@ -146,7 +146,7 @@ void MeshFigure::choose_cells() {
     for (std::size_t i = 0; i < kept.size(); ++i)
         if (kept[i]) cells.push_back(static_cast<Mesh::Index>(i));
     if (cells.empty()) refuse("", "no cell is left to draw", "a threshold or box that leaves some", "none");
-    mesh::Part part = mesh::part_of(mesh, std::move(cells));
+    mesh::Submesh part = mesh::part_of(mesh, std::move(cells));
     chosen_ = std::move(part.mesh);
     nodes_ = part.nodes;
     if (chosen_.cell_numbers.empty()) chosen_.cell_numbers = part.cells;
@@ -279,8 +279,8 @@ bool MeshFigure::is_cell_edge(Mesh::Index cell, Mesh::Index a, Mesh::Index b) co
 /// Those of cells, where the surface is a boundary; those where cells meet, where it cuts through them.
 void MeshFigure::add_edges(const Surface& surface) {
     std::vector<std::int32_t> segments;
-    surface::for_edges(surface, [&](std::span<const surface::Edge> edge) {
-        const auto cell_of = [&](const surface::Edge& e) {
+    surface::for_edges(surface, [&](std::span<const surface::TriangleEdge> edge) {
+        const auto cell_of = [&](const surface::TriangleEdge& e) {
             return surface.mesh_cells[static_cast<std::size_t>(e.second)];
         };
         const auto [a, b] = edge[0].first;

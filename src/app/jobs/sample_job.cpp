@@ -63,8 +63,8 @@ void check_job(const SampleJob& job, const std::vector<jobs::Step>& steps) {
 
 /// Rows of a map, which must stay. Those of one point follow one another, their cells ascending.
 jobs::RowSource rows_of_map(MapReader& map) {
-    const auto read = [&map, cell = Mesh::Index{-1}, before = std::array<double, 3>()](std::size_t most,
-                                                                                       jobs::Block& block) mutable {
+    const auto read = [&map, cell = Mesh::Index{-1}, before = std::array<double, 3>()](
+                          std::size_t most, jobs::BlockOfRows& block) mutable {
         block.size = map.read(most, block.rows).value();
         LocationCounts& locations = block.locations.emplace();
         const Table& rows = block.rows;

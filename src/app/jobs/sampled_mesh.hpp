@@ -135,7 +135,7 @@ private:
     std::deque<Field> made_;  ///< of fields of the mesh, and for the part
     std::vector<FieldChoice> fields_;
     std::vector<const Column*> labels_;
-    std::optional<mesh::Part> part_;  ///< what the locator is of, if not the mesh
+    std::optional<mesh::Submesh> part_;  ///< what the locator is of, if not the mesh
     std::optional<Locator> locator_;
     std::optional<Sampler> sampler_;
 };

@@ -15,7 +15,7 @@ namespace {
 
 /// Rows whose owners are known, to be sampled again: 29 bytes a row in 3D. Cells are those of the locator.
 RowSource rows_again(const std::vector<Table>& known) {
-    const auto read = [&known, next = std::size_t{0}](std::size_t, Block& block) mutable {
+    const auto read = [&known, next = std::size_t{0}](std::size_t, BlockOfRows& block) mutable {
         block.size = next == known.size() ? 0 : known[next].row_count();
         if (block.size != 0) block.rows = known[next++];
     };
@@ -46,7 +46,7 @@ public:
         open();
         seconds_.write += watch.lap();
         if (targets_.weights.empty()) mesh_.let_go_of_mesh();
-        blocks_.run([&](Block& block) { work(block); }, [&](Block& block) { write(block); });
+        blocks_.run([&](BlockOfRows& block) { work(block); }, [&](BlockOfRows& block) { write(block); });
         watch.lap();
         if (map_) map_->commit().value();
         if (weights_) weights_->commit().value();
@@ -63,7 +63,7 @@ private:
         if (!targets_.weights.empty()) weights_ = io::WeightsFile::open(targets_.weights, mesh.point_count()).value();
     }
 
-    void work(Block& block) const {
+    void work(BlockOfRows& block) const {
         Table& rows = block.rows;
         block.outside.reset();
         if (source_.located) look_outside(block);  // known before anything is computed
@@ -91,13 +91,13 @@ private:
         rows.counts.locations = locations;
     }
 
-    void look_outside(Block& block) const {
+    void look_outside(BlockOfRows& block) const {
         if (mesh_.job.options.outside.kind != Outside::error) return;
         const Table& rows = block.rows;
         block.outside = locate::first_outside(rows.cells, rows.points, static_cast<std::size_t>(rows.dimension));
     }
 
-    Error refused(const Block& block) const {
+    Error refused(const BlockOfRows& block) const {
         const Table& rows = block.rows;
         const auto& begin = rows.point_begin;
         const std::size_t row = *block.outside, d = static_cast<std::size_t>(rows.dimension);
@@ -107,7 +107,7 @@ private:
                              std::span(rows.points).subspan(d * row, d), mesh_.report.points);
     }
 
-    void write(const Block& block) {
+    void write(const BlockOfRows& block) {
         Stopwatch time;
         if (block.outside) throw Exception(refused(block));
         const TableView rows = block.rows.view();
@@ -147,7 +147,7 @@ private:
     Targets targets_;
     SampleOptions options_ = without_refusal(mesh_.job.options);
     JobSeconds& seconds_ = mesh_.report.seconds;
-    Blocks blocks_{source_, mesh_.job.options.threads, seconds_};
+    BlockPipeline blocks_{source_, mesh_.job.options.threads, seconds_};
     Sink sink_;
     std::optional<MapWriter> map_;
     std::unique_ptr<io::WeightsFile> weights_;
@@ -156,7 +156,7 @@ private:
 }  // namespace
 
 RowSource rows_of_points(std::unique_ptr<PointSource>& points) {
-    const auto read = [&points](std::size_t most, Block& block) {
+    const auto read = [&points](std::size_t most, BlockOfRows& block) {
         block.rows.dimension = points->dimension();
         block.rows.points.clear();
         block.size = points->read(most, block.rows.points).value();

@@ -6,7 +6,7 @@
 namespace barycert::jobs {
 
 /// Rows on their way, and what became of them.
-struct Block {
+struct BlockOfRows {
     Table rows;
     std::optional<LocationCounts> locations;  ///< of rows whose owners were known: what the source counts
     std::vector<Mesh::Index> located;         ///< cells of the locator, where they are to be known again
@@ -24,7 +24,7 @@ struct RowSource {
     bool counted = false;  ///< whether the report has these rows already
     std::optional<std::uint64_t> count = {};
     /// Fills rows and size of the block: at most `most`, 0 at the end.
-    std::function<void(std::size_t most, Block& block)> read = {};
+    std::function<void(std::size_t most, BlockOfRows& block)> read = {};
     /// From the beginning, for a step with another mesh.
     std::function<void(const SampledMesh& mesh)> begin_again = {};
 };
@@ -34,15 +34,15 @@ RowSource rows_of_points(std::unique_ptr<PointSource>& points);
 
 /// The rows of a source, which must stay, in blocks: few enough that all `threads` (0: as many as the machine has) have
 /// some, and enough points that sorting them brings near ones together. `seconds` gets those of reading and work.
-class Blocks {
+class BlockPipeline {
 public:
-    using Stage = std::function<void(Block& block)>;
+    using Stage = std::function<void(BlockOfRows& block)>;
 
-    Blocks(const RowSource& source, int threads, JobSeconds& seconds)
+    BlockPipeline(const RowSource& source, int threads, JobSeconds& seconds)
         : source_(source), threads_(threads), seconds_(seconds) {}
 
     /// Reads the first block, with which run() will begin.
-    Block& first() {
+    BlockOfRows& first() {
         read(first_.emplace());
         return *first_;
     }
@@ -57,7 +57,7 @@ public:
     void run(const Stage& work, const Stage& write);
 
 private:
-    void read(Block& block);
+    void read(BlockOfRows& block);
 
     const RowSource& source_;
     int threads_;
@@ -65,7 +65,7 @@ private:
     std::size_t cells_ = 0;  ///< among which points are looked for
     std::uint64_t taken_ = 0;
     bool more_ = true;
-    std::optional<Block> first_;
+    std::optional<BlockOfRows> first_;
 };
 
 using Sink = std::unique_ptr<TableSink>;

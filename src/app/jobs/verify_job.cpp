@@ -133,7 +133,7 @@ private:
     }
 
     /// Single precision is told by the first block.
-    void choose_tolerance(const jobs::Block& first, VerifyOptions& options) {
+    void choose_tolerance(const jobs::BlockOfRows& first, VerifyOptions& options) {
         if (job_.tolerance) options.tolerance = *job_.tolerance;
         if (job_.tolerance || options.exact) return;
         const Claims claims = claims_of(first);
@@ -148,14 +148,14 @@ private:
             "values are single precision: errors up to 1e-6 of the range count as right; job.tolerance says otherwise");
     }
 
-    Claims claims_of(const jobs::Block& block) const {
+    Claims claims_of(const jobs::BlockOfRows& block) const {
         return jobs::claims_of(columns_, block.rows.carried, mesh_, job_, block.first);
     }
 
     void compare() {
         const jobs::RowSource rows = jobs::rows_of_points(source_);
-        jobs::Blocks blocks(rows, job_.options.threads, report_.seconds);
-        const jobs::Block& first = blocks.first();
+        jobs::BlockPipeline blocks(rows, job_.options.threads, report_.seconds);
+        const jobs::BlockOfRows& first = blocks.first();
         blocks.locate_in(*locator_);
         VerifyOptions options = job_.options;
         options.threads = 1;  // blocks go side by side
@@ -167,12 +167,12 @@ private:
         report_.exact = options.exact;
         report_.outside_value = options.outside_value;
         report_.verdicts.columns.resize(report_.columns.size());
-        const auto work = [&](jobs::Block& block) {
+        const auto work = [&](jobs::BlockOfRows& block) {
             const Claims claims = claims_of(block);
             block.found =
                 verifier.verify({block.rows.points, claims.cells, claims.inside, claims.values, block.first}).value();
         };
-        const auto write = [&](const jobs::Block& block) {
+        const auto write = [&](const jobs::BlockOfRows& block) {
             report_.verdicts.add(block.found, job_.options.examples);
             jobs::tell_stage(job_, "rows", block.first + block.size);
         };

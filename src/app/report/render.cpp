@@ -185,7 +185,20 @@ Document contour_document(const ContourReport& s, const Environment& environment
 
 }  // namespace
 
-RUN_TEXT_AND_JSON(render, RenderReport)
-RUN_TEXT_AND_JSON(contour, ContourReport)
+std::string render_text(const RenderReport& report, bool colour) {
+    return written_text([&] { return render_document(report, {}); }, colour);
+}
+
+std::string render_json(const RenderReport& report, const Environment& environment) {
+    return written_json([&] { return render_document(report, environment); }, 2);
+}
+
+std::string contour_text(const ContourReport& report, bool colour) {
+    return written_text([&] { return contour_document(report, {}); }, colour);
+}
+
+std::string contour_json(const ContourReport& report, const Environment& environment) {
+    return written_json([&] { return contour_document(report, environment); }, 2);
+}
 
 }  // namespace barycert

@@ -187,6 +187,12 @@ std::string policy_text(const OutsidePolicy& policy) {
     return limited ? text + "=" + base::shortest(policy.limit) : text;
 }
 
-RUN_TEXT_AND_JSON(sample, SampleReport)
+std::string sample_text(const SampleReport& report, bool colour) {
+    return written_text([&] { return sample_document(report, {}); }, colour);
+}
+
+std::string sample_json(const SampleReport& report, const Environment& environment) {
+    return written_json([&] { return sample_document(report, environment); }, 2);
+}
 
 }  // namespace barycert

@@ -281,11 +281,16 @@ Document verify_document(const VerifyReport& s, const Environment& environment) 
 
 }  // namespace
 
-RUN_TEXT_AND_JSON(verify, VerifyReport)
+std::string verify_text(const VerifyReport& report, bool colour) {
+    return written_text([&] { return verify_document(report, {}); }, colour);
+}
+
+std::string verify_json(const VerifyReport& report, const Environment& environment) {
+    return written_json([&] { return verify_document(report, environment); }, 2);
+}
 
 std::string verify_html(const VerifyReport& summary, const Environment& environment) {
-    const ExactEnvironment exact;
-    return page_text(verify_document(summary, environment));
+    return written_page([&] { return verify_document(summary, environment); });
 }
 
 Result<std::string> verify_plot(const VerifyReport& summary, const std::string& path) {

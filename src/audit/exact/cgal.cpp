@@ -89,7 +89,7 @@ double rounded_root(mpq_srcptr x) {
 }
 
 /// Weights as parts of a whole, and their signs as CGAL's predicates tell them; nothing if there are none.
-struct Found {
+struct SignedWeights {
     std::array<Number, 4> parts;
     Number whole;
     std::array<int, 4> signs{};
@@ -116,10 +116,11 @@ std::array<Point3, n> points3(const Case& c) {
 
 /// The point in place of each of the vertices; nothing if these have no orientation.
 template <std::size_t n, class Point, class Orientation, class Measure>
-std::optional<Found> replaced(const std::array<Point, n>& v, const Point& p, Orientation orientation, Measure measure) {
+std::optional<SignedWeights> replaced(const std::array<Point, n>& v, const Point& p, Orientation orientation,
+                                      Measure measure) {
     const int whole = std::apply(orientation, v);
     if (whole == 0) return std::nullopt;
-    Found f;
+    SignedWeights f;
     f.whole = std::apply(measure, v);
     for (std::size_t i = 0; i < n; ++i) {
         std::array<Point, n> w = v;
@@ -130,13 +131,13 @@ std::optional<Found> replaced(const std::array<Point, n>& v, const Point& p, Ori
     return f;
 }
 
-std::optional<Found> tetrahedron(const Case& c) {
+std::optional<SignedWeights> tetrahedron(const Case& c) {
     return replaced(
         points3<4>(c), point3(c.point.data()), [](const auto&... w) { return CGAL::orientation(w...); },
         [](const auto&... w) { return CGAL::volume(w...); });
 }
 
-std::optional<Found> triangle(const Case& c) {
+std::optional<SignedWeights> triangle(const Case& c) {
     const std::array<Point2, 3> v{point2(&c.vertices[0]), point2(&c.vertices[2]), point2(&c.vertices[4])};
     return replaced(
         v, point2(c.point.data()), [](const auto&... w) { return CGAL::orientation(w...); },
@@ -144,25 +145,25 @@ std::optional<Found> triangle(const Case& c) {
 }  // NOLINT(clang-analyzer-cplusplus.NewDeleteLeaks): CGAL counts references
 
 /// Of a point in the plane of three others: with an apex off the plane.
-std::optional<Found> in_plane(const std::array<Point3, 3>& v, const Point3& p) {
+std::optional<SignedWeights> in_plane(const std::array<Point3, 3>& v, const Point3& p) {
     const Point3 apex = v[0] + CGAL::cross_product(v[1] - v[0], v[2] - v[0]);
     return replaced(
         v, p, [&](const auto&... w) { return CGAL::orientation(w..., apex); },
         [&](const auto&... w) { return CGAL::volume(w..., apex); });
 }
 
-std::optional<Found> triangle3d(const Case& c) {
+std::optional<SignedWeights> triangle3d(const Case& c) {
     const std::array<Point3, 3> v = points3<3>(c);
     if (CGAL::collinear(v[0], v[1], v[2])) return std::nullopt;
     return in_plane(v, Epeck::Plane_3(v[0], v[1], v[2]).projection(point3(c.point.data())));
 }
 
-std::optional<Found> segment(const Case& c) {
+std::optional<SignedWeights> segment(const Case& c) {
     const Point3 a = point3(&c.vertices[0]), b = point3(&c.vertices[3]);
     if (a == b) return std::nullopt;
     const Point3 q = Epeck::Line_3(a, b).projection(point3(c.point.data()));
     const Epeck::Vector_3 edge = b - a;
-    Found f;
+    SignedWeights f;
     f.parts[1] = (q - a) * edge;
     f.parts[0] = (b - q) * edge;
     f.whole = edge.squared_length();
@@ -172,7 +173,7 @@ std::optional<Found> segment(const Case& c) {
     return f;
 }
 
-std::optional<Found> perspective(const Case& c) {
+std::optional<SignedWeights> perspective(const Case& c) {
     if (CGAL::orientation(point2(&c.vertices[0]), point2(&c.vertices[3]), point2(&c.vertices[6])) == CGAL::ZERO)
         return std::nullopt;
     std::array<Point3, 3> v;
@@ -187,7 +188,7 @@ std::optional<Found> perspective(const Case& c) {
     return point == nullptr ? std::nullopt : in_plane(v, *point);
 }
 
-std::optional<Found> found(const Case& c) {
+std::optional<SignedWeights> found(const Case& c) {
     constexpr std::array of_simplex{segment, triangle, triangle3d, tetrahedron};
     return c.perspective ? perspective(c) : of_simplex[static_cast<std::size_t>(c.simplex)](c);
 }
@@ -196,7 +197,7 @@ std::optional<Found> found(const Case& c) {
 
 OracleAnswer ask_cgal(const Case& c) {
     const ExactEnvironment environment;
-    const std::optional<Found> f = found(c);
+    const std::optional<SignedWeights> f = found(c);
     if (!f) return degenerate_answer();
     OracleAnswer a;
     Number value = 0;

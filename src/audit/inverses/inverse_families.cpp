@@ -2,6 +2,7 @@
 
 #include "audit/inverses/reference.hpp"
 #include "audit/recipes.hpp"
+#include "core/vtk_cell.hpp"
 
 namespace barycert {
 
@@ -20,7 +21,7 @@ bool is_injective(const InverseCase& c) {
 /// Sets the point to the image of x, in plain double from left to right. `mirrored`: x in the half of the unit square
 /// that a wedge has not is taken into the other.
 void set_point(InverseCase& c, Triple x, bool mirrored = true) {
-    if (mirrored && c.type == 13 && std::max(x[0], x[1]) <= 1 && x[0] + x[1] > 1) x = {1 - x[0], 1 - x[1], x[2]};
+    if (mirrored && c.type == vtk_wedge && std::max(x[0], x[1]) <= 1 && x[0] + x[1] > 1) x = {1 - x[0], 1 - x[1], x[2]};
     std::array<double, iso::max_nodes> n{};
     iso::shape_functions(*iso::linear_reference(c.type), x, n, nullptr);
     std::ranges::fill(c.point, 0.0);
@@ -74,8 +75,8 @@ void affine(InverseCase& c, Random& random) {
 /// pyramid, where it is 0.
 void flat_corner(InverseCase& c, Random& random) {
     const std::size_t d = c.point.size();
-    const std::array<std::size_t, 3> next{1, c.type == 13 ? 2U : 3U, c.type == 13 ? 3U : 4U};
-    const bool apex = c.type == 14 && random.coin();
+    const std::array<std::size_t, 3> next{1, c.type == vtk_wedge ? 2U : 3U, c.type == vtk_wedge ? 3U : 4U};
+    const bool apex = c.type == vtk_pyramid && random.coin();
     do {
         warp(c, random, 0.2);
         const double height = apex ? 1 : random.scaled(0.5, 1, -40, -4);
@@ -103,8 +104,8 @@ void thin(InverseCase& c, Random& random) {
 
 void on_side(InverseCase& c, Random& random, Triple x) {
     const std::size_t axis = random.below(c.point.size());
-    x[axis] = random.integer(0, c.type == 14 && axis == 2 ? 0 : 1);  // no apex
-    if (c.type == 13 && x[0] == 1) x[0] = 1 - x[1];                  // the slanted side
+    x[axis] = random.integer(0, c.type == vtk_pyramid && axis == 2 ? 0 : 1);  // no apex
+    if (c.type == vtk_wedge && x[0] == 1) x[0] = 1 - x[1];                    // the slanted side
     set_point(c, x);
 }
 
@@ -129,7 +130,7 @@ void beyond(InverseCase& c, Random& random) {
     Triple x = any_inside(c, random);
     const double off = random.scaled(0.5, 1, -40, 0);
     const std::size_t axis = random.below(c.point.size());
-    const double end = c.type == 13 && axis < 2 ? 1 - x[1 - axis] : 1;  // the slanted side
+    const double end = c.type == vtk_wedge && axis < 2 ? 1 - x[1 - axis] : 1;  // the slanted side
     x[axis] = random.coin() ? end + off : -off;
     set_point(c, x, axis == 2);
 }

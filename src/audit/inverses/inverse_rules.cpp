@@ -4,6 +4,7 @@
 
 #include "audit/inverses/reference.hpp"
 #include "core/base/vectors.hpp"
+#include "core/vtk_cell.hpp"
 
 namespace barycert {
 
@@ -30,9 +31,9 @@ double size_of(const InverseCase& c) {
     double most = 0;
     for (std::size_t i = 0; i < c.values.size(); ++i) {
         for (std::size_t j = 0; j < i; ++j) {
-            const bool meant = c.type == 12   ? j < 4 && i == (j + 2) % 4 + 4
-                               : c.type == 13 ? i % 3 == j % 3 || i / 3 == j / 3
-                                              : i == 4 || i % 2 != j % 2;
+            const bool meant = c.type == vtk_hexahedron ? j < 4 && i == (j + 2) % 4 + 4
+                               : c.type == vtk_wedge    ? i % 3 == j % 3 || i / 3 == j / 3
+                                                        : i == 4 || i % 2 != j % 2;
             if (meant) most = std::max(most, distance(&c.nodes[3 * i], &c.nodes[3 * j]));
         }
     }
@@ -80,7 +81,7 @@ InverseAnswer newton(const InverseCase& c, const Newton& by) {
     }
     iso::shape_functions(of, a.x, n, nullptr);
     for (std::size_t i = 0; i < of.nodes; ++i) a.value += n[i] * c.values[i];
-    a.inside = c.type != 13 || a.x[0] + a.x[1] <= 1 + by.beyond;
+    a.inside = c.type != vtk_wedge || a.x[0] + a.x[1] <= 1 + by.beyond;
     for (const double x : a.x) a.inside = a.inside && x >= -by.beyond && x <= 1 + by.beyond;
     return a;
 }

@@ -26,6 +26,7 @@
 #include "barycert/kernels.hpp"
 #include "barycert/oracle.hpp"
 #include "core/isoparametric/inverse.hpp"
+#include "core/vtk_cell.hpp"
 
 namespace barycert::audit {
 
@@ -33,8 +34,8 @@ namespace iso = core::isoparametric;
 
 /// Where node i of the reference cell is; the apex of a pyramid over the middle of its base.
 inline std::array<double, 3> reference_node(std::uint8_t type, std::size_t i) {
-    if (type == 13) return {double(i % 3 == 1), double(i % 3 == 2), double(i >= 3)};
-    if (i == 4 && type == 14) return {0.5, 0.5, 1};
+    if (type == vtk_wedge) return {double(i % 3 == 1), double(i % 3 == 2), double(i >= 3)};
+    if (i == 4 && type == vtk_pyramid) return {0.5, 0.5, 1};
     return {double(i % 4 == 1 || i % 4 == 2), double(i % 4 >= 2), double(i >= 4)};
 }
 

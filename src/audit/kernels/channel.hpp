@@ -4,6 +4,10 @@
 /// at any time; between the two a keeper, which waits for the server's end and then ends what that has left behind; and
 /// the workers, which the server forks, one for each thread that asks. A worker loads the library and answers batches.
 /// When it dies, the program has the server fork another.
+///
+/// Processes are started by base::ChildProcess, as elsewhere. The pool is the kernels' own: workers live from case to
+/// case, are forked without exec (a worker shares the channels and needs no program to be found), and what a kernel
+/// leaves behind has to be found and ended, which no other child of this project's does.
 #pragma once
 
 #include <sys/types.h>

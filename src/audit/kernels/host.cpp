@@ -3,7 +3,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <poll.h>
 #include <sys/prctl.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
@@ -15,6 +14,7 @@
 #include <new>
 
 #include "core/base/text.hpp"
+#include "files/child_process.hpp"
 
 namespace barycert::kernels {
 namespace {
@@ -41,18 +41,6 @@ std::string not_loaded_within(int milliseconds) {
     return fmt::format("it did not load within {} s", milliseconds / 1000.0);
 }
 
-/// Whether the socket has something to read, its end included, within that time; signals do not prolong it.
-bool readable(int socket, int milliseconds) {
-    using Clock = std::chrono::steady_clock;
-    const auto until = Clock::now() + std::chrono::milliseconds(milliseconds);
-    for (;;) {
-        const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - Clock::now()).count();
-        pollfd ready{socket, POLLIN, 0};
-        const int count = poll(&ready, 1, static_cast<int>(std::max<std::int64_t>(left, 0)));
-        if (count >= 0 || errno != EINTR) return count != 0;
-    }
-}
-
 [[noreturn]] void become_server(Channel* channels, int socket, const char* path) {
     for (int signal = 1; signal < 32; ++signal) std::signal(signal, SIG_DFL);
     // What the terminal sends is meant for the program, whose end is this process's end.
@@ -66,14 +54,13 @@ bool readable(int socket, int milliseconds) {
     // adopt it, too, but has children that are no affair of the library's.
     setsid();
     prctl(PR_SET_CHILD_SUBREAPER, 1);
-    const pid_t keeper = getpid(), server = fork();
-    if (server == 0) {
-        prctl(PR_SET_PDEATHSIG, SIGKILL);
-        if (getppid() != keeper) _exit(0);  // it ended before that was set
+    const pid_t keeper = getpid();
+    base::ChildProcess server = base::ChildProcess::copy([&] {
+        base::end_with(keeper, SIGKILL);
         run_server(channels, 3, path);
-    }
+    });
     close(3);
-    if (server > 0) (void)TEMP_FAILURE_RETRY(waitpid(server, nullptr, 0));
+    server.wait();
     end_children({});
     _exit(0);
 }
@@ -93,11 +80,9 @@ Result<std::shared_ptr<Host>> Host::start(const std::string& path, double second
     int ends[2];
     if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) return no_process(path, std::strerror(errno));
     host->server_socket_ = base::Descriptor(ends[0]);
-    host->server_ = fork();
-    if (host->server_ == 0) become_server(host->channels(), ends[1], file.c_str());
-    const int why = errno;
+    host->server_ = base::ChildProcess::copy([&] { become_server(host->channels(), ends[1], file.c_str()); });
     close(ends[1]);
-    if (host->server_ < 0) return no_process(path, std::strerror(why));
+    if (!host->server_) return no_process(path, std::strerror(host->server_.failure()));
 
     Worker worker = host->take();
     const End end = host->begin(worker);
@@ -118,7 +103,7 @@ Result<std::shared_ptr<Host>> Host::start(const std::string& path, double second
 Host::~Host() {
     free_.clear();
     server_socket_.close();
-    if (server_ > 0) (void)TEMP_FAILURE_RETRY(waitpid(server_, nullptr, 0));
+    server_.wait();
 }
 
 Host::Worker Host::take() {
@@ -189,7 +174,7 @@ Host::End Host::command(Worker& worker, Command command, int milliseconds) {
     if (send(worker.socket.number, &letter, 1, MSG_NOSIGNAL) != 1) return End::died;
     constexpr std::uint64_t nothing = ~std::uint64_t{0};
     for (std::uint64_t seen = nothing;;) {
-        if (!readable(worker.socket.number, milliseconds)) {
+        if (!base::readable(worker.socket.number, std::chrono::milliseconds(milliseconds))) {
             const std::uint64_t begun = channel(worker).begun.load(std::memory_order_relaxed);
             if (begun == seen || command == Command::describe) return End::hung;
             seen = begun;

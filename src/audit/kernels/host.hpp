@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include "audit/kernels/channel.hpp"
+#include "files/child_process.hpp"
 #include "files/descriptor.hpp"
 
 namespace barycert::kernels {
@@ -66,7 +67,7 @@ private:
     int milliseconds_ = 1000, loading_milliseconds_ = 0;
     base::Mapping memory_;
     base::Descriptor server_socket_;
-    int server_ = -1;  // its keeper, which ends with it
+    base::ChildProcess server_;  // its keeper, which ends with it
     Description description_;
     std::mutex mutex_, server_mutex_;
     std::condition_variable freed_;

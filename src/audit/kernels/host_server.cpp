@@ -16,6 +16,7 @@
 #include <cstring>
 
 #include "audit/kernels/channel.hpp"
+#include "files/child_process.hpp"
 
 namespace barycert::kernels {
 namespace {
@@ -78,9 +79,8 @@ void limit_worker() {
 }
 
 [[noreturn]] void become_worker(Channel& channel, pid_t server, int socket, const char* path) {
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() != server) _exit(0);  // it ended before that was set
-    setsid();                           // signals to its group are its own affair
+    base::end_with(server, SIGKILL);
+    setsid();  // signals to its group are its own affair
     // Descriptors of the server are no affair of the library's.
     const int printed = memfd_create("printed", 0);
     if (printed < 0 || dup2(printed, 3) < 0 || dup2(socket, 4) < 0) _exit(127);
@@ -120,28 +120,22 @@ void run_server(Channel* channels, int socket, const char* path) {
     const pid_t self = getpid();
     setsid();
     prctl(PR_SET_CHILD_SUBREAPER, 1);  // what leaves its parent comes here, and is ended
-    std::array<pid_t, max_workers> workers{};
+    std::array<base::ChildProcess, max_workers> workers;
     ServerRequest request;
     int with = -1;
     while (receive(socket, request, with)) {
         int answer = -1;
         if (request.channel < max_workers) {
-            pid_t& worker = workers[request.channel];
+            base::ChildProcess& worker = workers[request.channel];
             if (request.kind == ServerRequest::fork_worker) {
-                worker = fork();
-                if (worker == 0) become_worker(channels[request.channel], self, with, path);
-                answer = worker < 0 ? -errno : worker;
-            } else if (worker > 0) {
-                pid_t ended = 0;
-                for (int ms = 0; ms < request.milliseconds; ++ms) {
-                    ended = waitpid(worker, &answer, WNOHANG);
-                    if (ended != 0) break;
-                    usleep(1000);
-                }
-                if (ended == 0) kill(worker, SIGKILL);
-                if (ended == 0) (void)TEMP_FAILURE_RETRY(waitpid(worker, &answer, 0));
-                worker = 0;
-                end_children(workers);
+                worker = base::ChildProcess::copy([&] { become_worker(channels[request.channel], self, with, path); });
+                answer = worker ? worker.id() : -worker.failure();
+            } else if (worker) {
+                for (int ms = 0; ms < request.milliseconds && !worker.has_ended(); ++ms) usleep(1000);
+                answer = worker.end();
+                std::array<pid_t, max_workers> kept{};
+                std::ranges::transform(workers, kept.begin(), &base::ChildProcess::id);
+                end_children(kept);
             }
         }
         if (with >= 0) close(with);

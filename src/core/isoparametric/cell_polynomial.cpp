@@ -1,4 +1,5 @@
 #include "core/isoparametric/cell_polynomial.hpp"
+#include "core/vtk_cell.hpp"
 
 #include <algorithm>
 
@@ -49,7 +50,7 @@ int binomial(int n, int k) {
 void add_parts(CellBasis& basis, std::size_t of) {
     const CellBasis::Exponents& whole = basis.terms[of];
     for (std::size_t to = 0; to < basis.terms.size(); ++to) {
-        CellBasis::Part part{of, to, {}, 1};
+        CellBasis::TermShift part{of, to, {}, 1};
         bool divides = true;
         for (std::size_t k = 0; k < 3; ++k) {
             const int all = whole[k], own = basis.terms[to][k];
@@ -91,7 +92,7 @@ const CellBasis& cell_basis(const Reference& of) {
         const auto add = [&](const Reference& one) {
             made[static_cast<std::size_t>(one.element)][static_cast<std::size_t>(one.order) - 1] = make_cell_basis(one);
         };
-        for (const int type : {9, 12, 13, 14}) add(*linear_reference(static_cast<std::uint8_t>(type)));
+        for (const VtkCell type : {vtk_quad, vtk_hexahedron, vtk_wedge, vtk_pyramid}) add(*linear_reference(type));
         for (const std::size_t nodes : {6, 10, 15}) add(*simplex_reference(2, nodes));
         for (const std::size_t nodes : {10, 20, 35}) add(*simplex_reference(3, nodes));
         return made;
@@ -125,7 +126,7 @@ CellCoefficients<N> CellPolynomial::taylor(const CellCoefficients<N>& at_zero, c
         for (std::size_t e = 1; e < powers_each; ++e) powers[k][e] = powers[k][e - 1] * N(x[k]);
     }
     CellCoefficients<N> out{};
-    for (const CellBasis::Part& part : basis_->parts) {
+    for (const CellBasis::TermShift& part : basis_->parts) {
         N by(part.factor);
         for (std::size_t k = 0; k < 3; ++k) {
             if (part.powers[k] != 0) by = by * powers[k][part.powers[k]];

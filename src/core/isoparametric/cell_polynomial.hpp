@@ -15,12 +15,12 @@ struct CellBasis {
     std::vector<Exponents> terms;              ///< with each one all that divide it; the first is 1
     std::vector<std::vector<double>> factors;  ///< [term][node], whole numbers: of functions times Reference::scale
     /// The coefficient of term `to` at a place x is the sum of its parts: factor x^powers times that of term `of` at 0.
-    struct Part {
+    struct TermShift {
         std::size_t of = 0, to = 0;
         Exponents powers{};
         int factor = 1;
     };
-    std::vector<Part> parts;
+    std::vector<TermShift> parts;
 
     std::size_t degree(std::size_t term) const {
         return std::size_t{0} + terms[term][0] + terms[term][1] + terms[term][2];

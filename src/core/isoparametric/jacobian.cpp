@@ -2,6 +2,7 @@
 
 #include "core/isoparametric/bernstein.hpp"
 #include "core/isoparametric/newton.hpp"
+#include "core/vtk_cell.hpp"
 
 namespace barycert::core::isoparametric {
 namespace {
@@ -54,7 +55,7 @@ BernsteinBasis::Index index_of(Element element, int r, int s, int t) {
 const std::array<std::size_t, 27>& places_in_basis(const Reference& of) {
     static const auto all = [] {
         std::array<std::array<std::size_t, 27>, 4> made{};
-        for (const std::uint8_t type : std::to_array<std::uint8_t>({9, 12, 13, 14})) {
+        for (const std::uint8_t type : {vtk_quad, vtk_hexahedron, vtk_wedge, vtk_pyramid}) {
             const Reference& own = *linear_reference(type);
             for (int i = 0; i < 27; ++i)
                 made[static_cast<std::size_t>(own.element)][static_cast<std::size_t>(i)] =
@@ -119,9 +120,9 @@ std::optional<JacobianSign> common_sign(const Reference& of, const Places& place
 const Reference* linear_reference(std::uint8_t type) {
     static const Reference quadrilateral{Element::quadrilateral, 1, 4}, hexahedron{Element::hexahedron, 1, 8},
         wedge{Element::wedge, 1, 6}, pyramid{Element::pyramid, 1, 5};
-    if (type == 8 || type == 9) return &quadrilateral;
-    if (type == 11 || type == 12) return &hexahedron;
-    return type == 13 ? &wedge : type == 14 ? &pyramid : nullptr;
+    if (type == vtk_pixel || type == vtk_quad) return &quadrilateral;
+    if (type == vtk_voxel || type == vtk_hexahedron) return &hexahedron;
+    return type == vtk_wedge ? &wedge : type == vtk_pyramid ? &pyramid : nullptr;
 }
 
 JacobianSign jacobian_sign(const Reference& of, const Places& places, int bisections) {

@@ -168,33 +168,46 @@ HWY_INLINE V largest(const V (&v)[3]) {
     return hn::Max(hn::Max(hn::Abs(v[0]), hn::Abs(v[1])), hn::Abs(v[2]));
 }
 
+/// Lanes from `first` on of row i of an array.
+HWY_INLINE V row_of(D tag, const double* rows, std::size_t i, std::size_t first) {
+    return hn::LoadU(tag, rows + i * max_lanes + first);
+}
+
+/// The nodes from the point, also rounded, and Q.
 template <LaneElement element>
-void evaluate_some(const LaneCases& cases, std::size_t first, LanesProved& proved) {
-    using B = Bounds<element>;
-    constexpr std::size_t nodes = lane_nodes(element);
-    const D tag;
-    constexpr double u = 0x1p-53;
-    const V one = hn::Set(tag, 1), zero = hn::Zero(tag), more = hn::Set(tag, 1 + 0x1p-40);
-    const auto row = [&](const double* rows, std::size_t i)
-                         HWY_ATTR { return hn::LoadU(tag, rows + i * max_lanes + first); };
-    DoubleDouble<V> q[nodes][3];
-    V high[nodes][3], size = zero;
-    for (std::size_t i = 0; i < nodes; ++i) {
+struct Offsets {
+    DoubleDouble<V> q[lane_nodes(element)][3];
+    V high[lane_nodes(element)][3], size;
+};
+
+template <LaneElement element>
+HWY_INLINE void set_offsets(D tag, const LaneCases& cases, std::size_t first, Offsets<element>& out) {
+    out.size = hn::Zero(tag);
+    for (std::size_t i = 0; i < lane_nodes(element); ++i) {
         for (std::size_t k = 0; k < 3; ++k) {
-            q[i][k] = two_difference(row(cases.places, 3 * i + k), row(cases.point, k));
-            if (B::simplex && i >= 4) {
+            const V p = row_of(tag, cases.point, k, first);
+            DoubleDouble<V>& q = out.q[i][k];
+            q = two_difference(row_of(tag, cases.places, 3 * i + k, first), p);
+            if (Bounds<element>::simplex && i >= 4) {
                 const V half = hn::Set(tag, 0.5);
-                q[i][k] = q[i][k] + two_difference(row(cases.others, 3 * (i - 4) + k), row(cases.point, k));
-                q[i][k] = {q[i][k].high * half, q[i][k].low * half};
+                q = q + two_difference(row_of(tag, cases.others, 3 * (i - 4) + k, first), p);
+                q = {q.high * half, q.low * half};
             }
-            high[i][k] = q[i][k].high;
-            size = hn::Max(size, hn::Abs(q[i][k].high));
+            out.high[i][k] = q.high;
+            out.size = hn::Max(out.size, hn::Abs(q.high));
         }
     }
-    Mask certain = within(tag, size, 0x1p-300, 0x1p300);
+}
+
+/// Newton's method: x, the Jacobian there and Y. Where x is far from the reference cell nothing stays certain.
+template <LaneElement element>
+HWY_INLINE void search(D tag, const Offsets<element>& from, V (&x)[3], Linear& at, V (&y)[3][3], Mask& certain) {
+    using B = Bounds<element>;
+    const V one = hn::Set(tag, 1), zero = hn::Zero(tag);
     const V across = hn::Set(tag, B::simplex ? 0.25 : element == LaneElement::wedge ? 1.0 / 3 : 0.5);
-    V x[3] = {across, across, hn::Set(tag, B::simplex ? 0.25 : 0.5)}, y[3][3];
-    Linear at = linearise<element>(tag, x, high);
+    x[0] = x[1] = across;
+    x[2] = hn::Set(tag, B::simplex ? 0.25 : 0.5);
+    at = linearise<element>(tag, x, from.high);
     for (int step = 0; step < 12; ++step) {
         invert(tag, at.jacobian, y);
         V moved = zero;
@@ -203,7 +216,7 @@ void evaluate_some(const LaneCases& cases, std::size_t first, LanesProved& prove
             moved = hn::Max(moved, hn::Abs(by));
             x[k] = x[k] - hn::Max(hn::Min(by, one), hn::Neg(one));
         }
-        at = linearise<element>(tag, x, high);
+        at = linearise<element>(tag, x, from.high);
         if (hn::AllFalse(tag, hn::And(certain, hn::Gt(moved, hn::Set(tag, 0x1p-26))))) break;
     }
     invert(tag, at.jacobian, y);
@@ -211,15 +224,23 @@ void evaluate_some(const LaneCases& cases, std::size_t first, LanesProved& prove
     for (const V& own : x) certain = hn::And(certain, near(own));
     if (element != LaneElement::hexahedron)
         certain = hn::And(certain, near(B::simplex ? x[0] + x[1] + x[2] : x[0] + x[1]));
+}
 
+/// Sets d; returns e, which bounds how far x - d is off. Where that is not proved nothing stays certain.
+template <LaneElement element>
+HWY_INLINE V prove(D tag, const Offsets<element>& from, const V (&x)[3], const Linear& at, const V (&y)[3][3],
+                   DoubleDouble<V> (&d)[3], Mask& certain) {
+    using B = Bounds<element>;
+    constexpr double u = 0x1p-53;
+    const V one = hn::Set(tag, 1), zero = hn::Zero(tag), more = hn::Set(tag, 1 + 0x1p-40);
     // X(x) - p, and d.
-    const DoubleDouble<V> unit{one, zero};
-    DoubleDouble<V> from[3] = {{x[0], zero}, {x[1], zero}, {x[2], zero}}, n[nodes], rest[3], d[3];
-    functions<element>(unit, from, n);
+    const DoubleDouble<V> place[3] = {{x[0], zero}, {x[1], zero}, {x[2], zero}};
+    DoubleDouble<V> n[lane_nodes(element)], rest[3];
+    functions<element>(DoubleDouble<V>{one, zero}, place, n);
     V step[3], rows_of_y[3], m = zero;
     for (int k = 0; k < 3; ++k) {
-        rest[k] = n[0] * q[0][k];
-        for (std::size_t i = 1; i < nodes; ++i) rest[k] = rest[k] + n[i] * q[i][k];
+        rest[k] = n[0] * from.q[0][k];
+        for (std::size_t i = 1; i < lane_nodes(element); ++i) rest[k] = rest[k] + n[i] * from.q[i][k];
     }
     for (int k = 0; k < 3; ++k) {
         d[k] = DoubleDouble<V>{y[k][0], zero} * rest[0] + DoubleDouble<V>{y[k][1], zero} * rest[1] +
@@ -228,7 +249,7 @@ void evaluate_some(const LaneCases& cases, std::size_t first, LanesProved& prove
         rows_of_y[k] = hn::Abs(y[k][0]) + hn::Abs(y[k][1]) + hn::Abs(y[k][2]);
     }
     const V y_size = hn::Max(hn::Max(rows_of_y[0], rows_of_y[1]), rows_of_y[2]);
-    const V off = hn::Set(tag, B::of_d * u * u) * size * y_size;
+    const V off = hn::Set(tag, B::of_d * u * u) * from.size * y_size;
     const V by = (largest(step) + off) * more, radius = hn::Set(tag, 4) * by + hn::Set(tag, 0x1p-45);
     for (int r = 0; r < 3; ++r) {
         V sum = zero;
@@ -237,29 +258,52 @@ void evaluate_some(const LaneCases& cases, std::size_t first, LanesProved& prove
             sum = sum + hn::Abs(r == c ? one - product : product);
         }
         const V around = hn::Set(tag, B::around * u) + hn::Set(tag, B::over_box) * radius;
-        m = hn::Max(m, sum + hn::Set(tag, 3) * around * size * rows_of_y[r]);
+        m = hn::Max(m, sum + hn::Set(tag, 3) * around * from.size * rows_of_y[r]);
     }
     m = m * more;
     certain = hn::And(certain, hn::And(hn::Lt(m, hn::Set(tag, 0.25)), hn::Le(radius, hn::Set(tag, 0x1p-20))));
     certain = hn::And(certain, hn::Le(y_size, hn::Set(tag, 0x1p330)));
-    const V error = (hn::Set(tag, 2) * by * m + off + hn::Set(tag, 5 * u * u)) * more;
-    const V blur = hn::Set(tag, 3) * error + hn::Set(tag, 8 * u);  // each sum below is off by less than 4 u
+    return (hn::Set(tag, 2) * by * m + off + hn::Set(tag, 5 * u * u)) * more;
+}
+
+/// Sets the place x - d, which is off by at most `error`; returns where it is inside. Where it is outside nothing stays
+/// certain.
+template <LaneElement element>
+HWY_INLINE Mask inside_of(D tag, const V (&x)[3], const DoubleDouble<V> (&d)[3], V error, DoubleDouble<V> (&place)[3],
+                          Mask& certain) {
+    constexpr bool simplex = Bounds<element>::simplex;
+    const V one = hn::Set(tag, 1);
+    // Each sum below is off by less than 4 u.
+    const V blur = hn::Set(tag, 3) * error + hn::Set(tag, 8 * 0x1p-53);
     Mask inside = certain;
     for (int k = 0; k < 3; ++k) {
-        from[k] = from[k] - d[k];
-        V room = from[k].high;
-        if (element == LaneElement::hexahedron || (k == 2 && !B::simplex)) room = hn::Min(room, one - room);
-        if (k == 1 && element == LaneElement::wedge) room = hn::Min(room, one - from[0].high - from[1].high);
-        if (k == 2 && B::simplex) room = hn::Min(room, one - from[0].high - from[1].high - from[2].high);
+        place[k] = DoubleDouble<V>{x[k], hn::Zero(tag)} - d[k];
+        V room = place[k].high;
+        if (element == LaneElement::hexahedron || (k == 2 && !simplex)) room = hn::Min(room, one - room);
+        if (k == 1 && element == LaneElement::wedge) room = hn::Min(room, one - place[0].high - place[1].high);
+        if (k == 2 && simplex) room = hn::Min(room, one - place[0].high - place[1].high - place[2].high);
         inside = hn::And(inside, hn::Gt(room, blur));
         certain = hn::And(certain, hn::Ge(room, hn::Neg(blur)));  // else another point that is taken there
     }
-    functions<element>(unit, from, n);
+    return inside;
+}
+
+/// Writes the values at the place, which is off by at most `error`. Where one's rounding is not certain nothing stays
+/// so.
+template <LaneElement element>
+HWY_INLINE void write_values(D tag, const LaneCases& cases, std::size_t first, const DoubleDouble<V> (&place)[3],
+                             V error, Mask& certain) {
+    using B = Bounds<element>;
+    constexpr std::size_t nodes = lane_nodes(element);
+    constexpr double u = 0x1p-53;
+    const V zero = hn::Zero(tag);
+    DoubleDouble<V> n[nodes];
+    functions<element>(DoubleDouble<V>{hn::Set(tag, 1), zero}, place, n);
     for (std::size_t c = 0; c < cases.components; ++c) {
         V most = zero;
         DoubleDouble<V> value{zero, zero};
         for (std::size_t i = 0; i < nodes; ++i) {
-            const V f = row(cases.values, nodes * c + i);
+            const V f = row_of(tag, cases.values, nodes * c + i, first);
             most = hn::Max(most, hn::Abs(f));
             const DoubleDouble<V> term = n[i] * DoubleDouble<V>{f, zero};
             value = i == 0 ? term : value + term;
@@ -269,6 +313,21 @@ void evaluate_some(const LaneCases& cases, std::size_t first, LanesProved& prove
         const V rounded = core::HWY_NAMESPACE::rounded_sum(tag, value.high, value.low, bound, certain) + zero;
         hn::StoreU(rounded, tag, cases.out + c * max_lanes + first);
     }
+}
+
+template <LaneElement element>
+void evaluate_some(const LaneCases& cases, std::size_t first, LanesProved& proved) {
+    const D tag;
+    Offsets<element> from;
+    set_offsets<element>(tag, cases, first, from);
+    Mask certain = within(tag, from.size, 0x1p-300, 0x1p300);
+    V x[3], y[3][3];
+    Linear at;
+    search<element>(tag, from, x, at, y, certain);
+    DoubleDouble<V> d[3], place[3];
+    const V error = prove<element>(tag, from, x, at, y, d, certain);
+    const Mask inside = inside_of<element>(tag, x, d, error, place, certain);
+    write_values<element>(tag, cases, first, place, error, certain);
     const auto bits_of = [&](Mask mask) HWY_ATTR {
         const std::size_t count = std::min(hn::Lanes(tag), cases.count - first);
         return (core::HWY_NAMESPACE::mask_bits(tag, mask) & ((std::uint32_t{1} << count) - 1)) << first;

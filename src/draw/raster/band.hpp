@@ -48,7 +48,7 @@ public:
           slack_(layers.lines.empty() ? 0 : colours_.size(), 0.0F) {}
 
     /// `numbers`: layers.numbers of each vertex. True if it covers a sample.
-    bool draw(const Part& part, std::span<const double> numbers) {
+    bool draw(const Primitive& part, std::span<const double> numbers) {
         const std::uint64_t before = counts_.covered;
         part_ = &part;
         numbers_ = numbers;
@@ -258,7 +258,7 @@ private:
     std::vector<double> depth_;  ///< of each sample; infinite where nothing is drawn
     std::vector<float> slack_;
     RenderCounts counts_;
-    const Part* part_ = nullptr;
+    const Primitive* part_ = nullptr;
     std::span<const double> numbers_;
     std::vector<double> values_, row_;
     std::array<double, 2> slope_{};

@@ -27,9 +27,9 @@ public:
     Image run() {
         set_parts();
         const auto bands = static_cast<std::size_t>((height_ + rows_ - 1) / rows_);
-        std::vector<const Part*> all;
+        std::vector<const Primitive*> all;
         for (const Parts& some : parts_)
-            for (const Part& part : some.all) all.push_back(&part);
+            for (const Primitive& part : some.all) all.push_back(&part);
         const base::Lists<std::uint32_t> of_band(bands, [&](auto add) {
             for (std::size_t i = 0; i < all.size(); ++i) add_to_bands(*all[i], static_cast<std::uint32_t>(i), add);
         });
@@ -41,7 +41,7 @@ public:
             Band band(layers_, begin, std::min(begin + rows_, height_));
             std::vector<double> numbers(3 * layers_.numbers);
             for (const std::uint32_t i : of_band[b]) {
-                const Part& part = *all[i];
+                const Primitive& part = *all[i];
                 set_numbers(part, numbers);
                 if (band.draw(part, numbers) && !part.line) drawn_[part.source].store(true, std::memory_order_relaxed);
             }
@@ -78,7 +78,7 @@ private:
     }
 
     template <class Add>
-    void add_to_bands(const Part& part, std::uint32_t index, const Add& add) const {
+    void add_to_bands(const Primitive& part, std::uint32_t index, const Add& add) const {
         const auto [low, high] = std::minmax({part.window[1], part.window[3], part.window[5]});
         const std::int32_t last_band = (height_ - 1) / rows_;
         const double tall = 1.0 * rows_ * layers_.samples, last = last_band;
@@ -88,7 +88,7 @@ private:
             add(b, index);
     }
 
-    void set_numbers(const Part& part, std::vector<double>& numbers) const {
+    void set_numbers(const Primitive& part, std::vector<double>& numbers) const {
         const std::size_t n = layers_.numbers;
         if (n == 0 || part.line) return;
         const std::vector<double>& cut = parts_[part.source / grain].cut;

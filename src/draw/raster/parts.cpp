@@ -36,7 +36,7 @@ void Clipper::add(std::size_t triangle) {
     for (std::size_t i = 1; i + 1 < vertices; ++i) {
         if (orient2d(window_[0].data(), window_[i].data(), window_[i + 1].data()) == Sign::zero) continue;
         area = true;
-        Part& part = to_.all.emplace_back();
+        Primitive& part = to_.all.emplace_back();
         part.source = static_cast<std::uint32_t>(triangle);
         part.clipped = clip == Clip::cut;
         const std::size_t fan[3] = {0, i, i + 1};
@@ -52,7 +52,7 @@ void Clipper::add(std::size_t triangle) {
     if (!area) ++to_.counts.degenerate;
 }
 
-void add_line(const Layers& layers, std::size_t index, RasterSize samples, std::vector<Part>& to) {
+void add_line(const Layers& layers, std::size_t index, RasterSize samples, std::vector<Primitive>& to) {
     const Line& line = layers.lines[index];
     std::array<std::array<double, 2>, 2> at;
     for (std::size_t i = 0; i < 2; ++i) {
@@ -71,7 +71,7 @@ void add_line(const Layers& layers, std::size_t index, RasterSize samples, std::
     };
     const std::array corners{corner(0, 1), corner(0, -1), corner(1, -1), corner(1, 1)};
     for (const std::array<std::size_t, 3>& fan : {std::array<std::size_t, 3>{0, 1, 2}, {0, 2, 3}}) {
-        Part part{};
+        Primitive part{};
         part.source = static_cast<std::uint32_t>(index);
         part.line = true;
         for (std::size_t k = 0; k < 3; ++k) {

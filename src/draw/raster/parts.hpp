@@ -7,7 +7,7 @@ namespace barycert::raster {
 
 /// A triangle within the clip volume, in the window of samples. Numbers are finite, w > 0, the area in the window is
 /// not zero.
-struct Part {
+struct Primitive {
     std::array<double, 6> window;  ///< x and y of each vertex
     std::array<double, 3> z;       ///< z / w, the depth
     std::array<double, 3> w;
@@ -18,7 +18,7 @@ struct Part {
 
 /// What a range of triangles has become.
 struct Parts {
-    std::vector<Part> all;
+    std::vector<Primitive> all;
     std::vector<double> cut;  ///< numbers of new vertices and those beside them
     RenderCounts counts;
 };
@@ -39,6 +39,6 @@ private:
 };
 
 /// A line as two triangles; nothing if an end is not before the eye, or both are at one place.
-void add_line(const Layers& layers, std::size_t index, RasterSize samples, std::vector<Part>& to);
+void add_line(const Layers& layers, std::size_t index, RasterSize samples, std::vector<Primitive>& to);
 
 }  // namespace barycert::raster

@@ -74,7 +74,7 @@ std::vector<double> in_space(const std::vector<double>& points, std::size_t d) {
 }
 
 /// The cells that a page has of the mesh; all, if they are few enough.
-mesh::Part cells_of(const PageScene& scene) {
+mesh::Submesh cells_of(const PageScene& scene) {
     std::vector<Mesh::Index> cells;
     for (const PageSurface& s : scene.surfaces)
         cells.insert(cells.end(), s.surface->mesh_cells.begin(), s.surface->mesh_cells.end());
@@ -91,7 +91,7 @@ std::vector<Mesh::Index> renumbered(std::vector<Mesh::Index> all, const std::vec
     return all;
 }
 
-Json surface_json(const PageSurface& s, const mesh::Part& kept, PageData& data) {
+Json surface_json(const PageSurface& s, const mesh::Submesh& kept, PageData& data) {
     const Surface& of = *s.surface;
     Json out{{"triangles", data.add(of.cells)},
              {"cells", data.add(renumbered(of.mesh_cells, kept.cells))},
@@ -104,7 +104,7 @@ Json surface_json(const PageSurface& s, const mesh::Part& kept, PageData& data) 
     return out;
 }
 
-void add_fields(const PageScene& scene, const mesh::Part& kept, PageData& data) {
+void add_fields(const PageScene& scene, const mesh::Submesh& kept, PageData& data) {
     Json all = Json::array();
     data.header["field"] = -1;
     for (const auto& [fields, rows, of_cells] :
@@ -147,7 +147,7 @@ std::string viewer_script() {
 }  // namespace
 
 std::string turning_figure(const PageScene& scene, std::string_view still) {
-    const mesh::Part kept = cells_of(scene);
+    const mesh::Submesh kept = cells_of(scene);
     const Mesh& mesh = kept.mesh;
     const auto d = static_cast<std::size_t>(mesh.dimension);
     const FigureOptions& o = scene.figure.options;

@@ -1,114 +1,26 @@
-#include <fcntl.h>
-#include <poll.h>
-#include <signal.h>
-#include <spawn.h>
+#include <sys/mman.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
+#include <array>
 #include <chrono>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "io/converted/meshio_script.hpp"
+#include "files/child_process.hpp"
+#include "files/embedded.hpp"
 #include "io/vtk/raw_grid.hpp"
 
-extern char** environ;
+BARYCERT_EMBED(barycert_meshio_script, BARYCERT_MESHIO_SCRIPT);
 
 namespace barycert::io {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 constexpr std::chrono::seconds most_time{600};
-constexpr std::int64_t tick = 50;                        // milliseconds after which it is looked at
 constexpr std::size_t most_text = std::size_t{1} << 18;  // of each stream
-
-struct Pipe {
-    base::Descriptor out, in;
-    Pipe() {
-        std::array<int, 2> ends{-1, -1};
-        if (::pipe2(ends.data(), O_CLOEXEC) != 0) return;
-        out.number = ends[0];
-        in.number = ends[1];
-    }
-};
-
-struct Process {
-    pid_t id = -1;
-    Pipe life, answer, messages;
-    int failure = 0;
-
-    Process(const std::string& python, const std::vector<std::string>& arguments, int output, int input) {
-        posix_spawn_file_actions_t files;
-        posix_spawnattr_t attributes;
-        posix_spawn_file_actions_init(&files);
-        posix_spawnattr_init(&attributes);
-        const std::array<int, 5> from{life.out.number, answer.in.number, messages.in.number, output, input};
-        for (const int end : from) failure = end < 0 ? EMFILE : failure;
-        // Onto high numbers first: one of them may be in the place of another.
-        for (int i = 0; i < 5; ++i)
-            posix_spawn_file_actions_adddup2(&files, from[static_cast<std::size_t>(i)], 100 + i);
-        for (int i = 0; i < 5; ++i) posix_spawn_file_actions_adddup2(&files, 100 + i, i);
-        posix_spawn_file_actions_addclosefrom_np(&files, 5);
-        sigset_t none, all;
-        sigemptyset(&none);
-        sigfillset(&all);
-        posix_spawnattr_setsigmask(&attributes, &none);
-        posix_spawnattr_setsigdefault(&attributes, &all);
-        posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSID | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
-        std::vector<char*> words{const_cast<char*>(python.c_str())};
-        for (const std::string& word : arguments) words.push_back(const_cast<char*>(word.c_str()));
-        words.push_back(nullptr);
-        if (failure == 0) failure = ::posix_spawnp(&id, python.c_str(), &files, &attributes, words.data(), environ);
-        if (failure != 0) id = -1;
-        posix_spawnattr_destroy(&attributes);
-        posix_spawn_file_actions_destroy(&files);
-        life.out.close();
-        answer.in.close();
-        messages.in.close();
-    }
-    Process(const Process&) = delete;
-    Process& operator=(const Process&) = delete;
-    ~Process() { end(); }
-
-    /// Ends it and all that it started; its status.
-    int end() {
-        if (id < 0) return 0;
-        ::kill(-id, SIGKILL);
-        int status = 0;
-        (void)TEMP_FAILURE_RETRY(::waitpid(id, &status, 0));
-        id = -1;
-        return status;
-    }
-
-    /// All that it prints, up to its end, whoever else holds the other ends. False: it takes too long.
-    bool listen(std::string& text, std::string& errors) {
-        std::array<pollfd, 2> open{{{answer.out.number, POLLIN, 0}, {messages.out.number, POLLIN, 0}}};
-        const auto until = Clock::now() + most_time;
-        while (open[0].fd >= 0 || open[1].fd >= 0) {
-            const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - Clock::now()).count();
-            if (left <= 0) return false;
-            siginfo_t found{};
-            const bool ended =  // what it wrote before can be read now
-                ::waitid(P_PID, static_cast<id_t>(id), &found, WEXITED | WNOHANG | WNOWAIT) == 0 && found.si_pid == id;
-            const int ready = ::poll(open.data(), open.size(), ended ? 0 : static_cast<int>(std::min(left, tick)));
-            if (ready <= 0 && ended) break;
-            if (ready <= 0) continue;
-            for (pollfd& one : open) {
-                if (one.fd < 0 || one.revents == 0) continue;
-                std::array<char, 4096> bytes{};
-                const ssize_t got = TEMP_FAILURE_RETRY(::read(one.fd, bytes.data(), bytes.size()));
-                std::string& to = &one == open.data() ? text : errors;
-                if (got <= 0) {
-                    one.fd = -1;
-                } else if (to.size() < most_text) {
-                    to.append(bytes.data(), static_cast<std::size_t>(got));
-                }
-            }
-        }
-        return true;
-    }
-};
 
 /// Of formats in HDF5 and NetCDF the first bytes tell.
 base::Text beginning_of(const base::InputFile& file, const std::string& path, const std::string& format) {
@@ -117,6 +29,14 @@ base::Text beginning_of(const base::InputFile& file, const std::string& path, co
     const std::string_view head(magic.data(), size ? *size : 0);
     if (head == "\x89HDF" || head.starts_with("CDF") || format == "ugrid") return base::Text::none;
     return format == "ansys" ? base::Text::head : base::Text::all;
+}
+
+/// The types of cells that meshio has a name for, in JSON: VTK's numbers by names.
+std::string types_by_meshio() {
+    nlohmann::json numbers;
+    for (const CellType& type : cell_types())
+        if (!type.meshio.empty()) numbers[std::string(type.meshio)] = type.number;
+    return numbers.dump();
 }
 
 struct MeshioFile {
@@ -148,19 +68,33 @@ MeshioFile run_meshio(const std::string& path, const std::string& format) {
     const std::string memory = std::to_string(static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) / 2 *
                                               static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)));
     const bool packed = path.ends_with(".gz");  // formats that name files beside them are not packed
-    const std::vector<std::string> arguments{"-c",   meshio_script, packed ? "/dev/fd/4" : path,      format,
-                                             memory, memory,        std::to_string(most_time.count())};
+    const std::vector<std::string> arguments{"-c",
+                                             barycert_meshio_script,
+                                             packed ? "/dev/fd/4" : path,
+                                             format,
+                                             memory,
+                                             memory,
+                                             std::to_string(most_time.count()),
+                                             types_by_meshio()};
     std::string tried;
     for (const std::string& python : pythons) {
         MeshioFile file{.descriptor = base::Descriptor(::memfd_create("barycert-meshio", MFD_CLOEXEC))};
         if (!file.descriptor) throw Exception(base::read_failure(path, errno));
         file.vtu = "/proc/self/fd/" + std::to_string(file.descriptor.number);
-        Process process(python, arguments, file.descriptor.number, input.descriptor());
-        const bool ended = process.failure != 0 || process.listen(file.answer, file.messages);
+        base::Pipe life, answer, messages;
+        const std::array<int, 5> descriptors{life.out.number, answer.in.number, messages.in.number,
+                                             file.descriptor.number, input.descriptor()};
+        base::ChildProcess process = base::ChildProcess::run(python, arguments, descriptors);
+        for (base::Descriptor* const end : {&life.out, &answer.in, &messages.in}) end->close();
+        std::array<base::Stream, 2> streams{base::Stream{answer.out.number, {}, most_text},
+                                            base::Stream{messages.out.number, {}, most_text}};
+        const bool ended = !process || process.listen(streams, most_time);
         const int status = process.end();
+        file.answer = std::move(streams[0].text);
+        file.messages = std::move(streams[1].text);
         tried += (tried.empty() ? "" : ", ") + python + ": ";
-        if (process.failure != 0) {
-            tried += std::strerror(process.failure);
+        if (process.failure() != 0) {
+            tried += std::strerror(process.failure());
         } else if (file.answer.find("\"missing\"") != std::string::npos) {
             tried += "no such module";
         } else if (!file.answer.empty()) {
@@ -209,7 +143,7 @@ void check_complete(const Json& answer, const Mesh& mesh, const InSpace& space, 
     need("nodes", answer.at("nodes"), mesh.point_count());
     std::size_t cells = 0;
     for (const auto& [type, count] : answer.at("types").items()) {
-        if (cell_types()[whole_number<std::uint8_t>(type).value_or(0)].dimension() == mesh.dimension)
+        if (mesh::cell_type(whole_number<std::uint8_t>(type).value_or(0)).dimension() == mesh.dimension)
             cells += count.get<std::size_t>();
     }
     if (space.facets.empty()) need("cells of dimension " + std::to_string(mesh.dimension), cells, mesh.whole_count());

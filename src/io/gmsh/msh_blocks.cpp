@@ -74,7 +74,7 @@ void add_rows(Walk& walk, int version, std::int64_t count, std::size_t passed, N
 void find_parametric_rows(const MshFile& file, Walk& walk, std::int64_t count, NodeRows& rows) {
     Walk(walk).skip_rows(count, 6, 1, "nodes");
     while (rows.count < static_cast<std::size_t>(count)) {
-        Row<true> row(file, walk.at());
+        NumberScanner<true> row(file, walk.at());
         double ignored = 0;
         std::int64_t dimension = 0;
         for (int i = 0; i < 4; ++i) row.any_real(ignored, "");
@@ -143,7 +143,7 @@ struct LikeElements {
     /// The blanks behind the tag of an element, its type and the number of its tags, if they are few bytes.
     FewBytes second;
 
-    bool has(Row<true> row) const {
+    bool has(NumberScanner<true> row) const {
         std::int64_t tag = 0, own_type = 0, own_tags = 0;
         return row.integer(tag, "") && row.integer(own_type, "") && row.integer(own_tags, "") && own_type == type &&
                own_tags == tags;

@@ -11,34 +11,57 @@ namespace {
 // Numbers, orders and node counts of Gmsh's documentation ("MSH file format") and of GmshDefines.h. The serendipity
 // types of higher order have fewer nodes than the complete ones of the same order.
 constexpr auto element_types = [] {
-    using enum ElementFamily;
     return std::to_array<ElementType>(
-        {{1, line, 1, 2},           {2, triangle, 1, 3},        {3, quadrangle, 1, 4},     {4, tetrahedron, 1, 4},
-         {5, hexahedron, 1, 8},     {6, prism, 1, 6},           {7, pyramid, 1, 5},        {8, line, 2, 3},
-         {9, triangle, 2, 6},       {10, quadrangle, 2, 9},     {11, tetrahedron, 2, 10},  {12, hexahedron, 2, 27},
-         {13, prism, 2, 18},        {14, pyramid, 2, 14},       {15, point, 1, 1},         {16, quadrangle, 2, 8},
-         {17, hexahedron, 2, 20},   {18, prism, 2, 15},         {19, pyramid, 2, 13},      {20, triangle, 3, 9},
-         {21, triangle, 3, 10},     {22, triangle, 4, 12},      {23, triangle, 4, 15},     {24, triangle, 5, 15},
-         {25, triangle, 5, 21},     {26, line, 3, 4},           {27, line, 4, 5},          {28, line, 5, 6},
-         {29, tetrahedron, 3, 20},  {30, tetrahedron, 4, 35},   {31, tetrahedron, 5, 56},  {36, quadrangle, 3, 16},
-         {37, quadrangle, 4, 25},   {38, quadrangle, 5, 36},    {42, triangle, 6, 28},     {43, triangle, 7, 36},
-         {44, triangle, 8, 45},     {45, triangle, 9, 55},      {46, triangle, 10, 66},    {47, quadrangle, 6, 49},
-         {48, quadrangle, 7, 64},   {49, quadrangle, 8, 81},    {50, quadrangle, 9, 100},  {51, quadrangle, 10, 121},
-         {62, line, 6, 7},          {63, line, 7, 8},           {64, line, 8, 9},          {65, line, 9, 10},
-         {66, line, 10, 11},        {71, tetrahedron, 6, 84},   {72, tetrahedron, 7, 120}, {73, tetrahedron, 8, 165},
-         {74, tetrahedron, 9, 220}, {75, tetrahedron, 10, 286}, {90, prism, 3, 40},        {91, prism, 4, 75},
-         {92, hexahedron, 3, 64},   {93, hexahedron, 4, 125},   {94, hexahedron, 5, 216},  {118, pyramid, 3, 30},
-         {119, pyramid, 4, 55}});
+        {{1, vtk_line, 1, 2},          {2, vtk_triangle, 1, 3},      {3, vtk_quad, 1, 4},
+         {4, vtk_tetra, 1, 4},         {5, vtk_hexahedron, 1, 8},    {6, vtk_wedge, 1, 6},
+         {7, vtk_pyramid, 1, 5},       {8, vtk_line, 2, 3},          {9, vtk_triangle, 2, 6},
+         {10, vtk_quad, 2, 9},         {11, vtk_tetra, 2, 10},       {12, vtk_hexahedron, 2, 27},
+         {13, vtk_wedge, 2, 18},       {14, vtk_pyramid, 2, 14},     {15, vtk_vertex, 1, 1},
+         {16, vtk_quad, 2, 8},         {17, vtk_hexahedron, 2, 20},  {18, vtk_wedge, 2, 15},
+         {19, vtk_pyramid, 2, 13},     {20, vtk_triangle, 3, 9},     {21, vtk_triangle, 3, 10},
+         {22, vtk_triangle, 4, 12},    {23, vtk_triangle, 4, 15},    {24, vtk_triangle, 5, 15},
+         {25, vtk_triangle, 5, 21},    {26, vtk_line, 3, 4},         {27, vtk_line, 4, 5},
+         {28, vtk_line, 5, 6},         {29, vtk_tetra, 3, 20},       {30, vtk_tetra, 4, 35},
+         {31, vtk_tetra, 5, 56},       {36, vtk_quad, 3, 16},        {37, vtk_quad, 4, 25},
+         {38, vtk_quad, 5, 36},        {42, vtk_triangle, 6, 28},    {43, vtk_triangle, 7, 36},
+         {44, vtk_triangle, 8, 45},    {45, vtk_triangle, 9, 55},    {46, vtk_triangle, 10, 66},
+         {47, vtk_quad, 6, 49},        {48, vtk_quad, 7, 64},        {49, vtk_quad, 8, 81},
+         {50, vtk_quad, 9, 100},       {51, vtk_quad, 10, 121},      {62, vtk_line, 6, 7},
+         {63, vtk_line, 7, 8},         {64, vtk_line, 8, 9},         {65, vtk_line, 9, 10},
+         {66, vtk_line, 10, 11},       {71, vtk_tetra, 6, 84},       {72, vtk_tetra, 7, 120},
+         {73, vtk_tetra, 8, 165},      {74, vtk_tetra, 9, 220},      {75, vtk_tetra, 10, 286},
+         {90, vtk_wedge, 3, 40},       {91, vtk_wedge, 4, 75},       {92, vtk_hexahedron, 3, 64},
+         {93, vtk_hexahedron, 4, 125}, {94, vtk_hexahedron, 5, 216}, {118, vtk_pyramid, 3, 30},
+         {119, vtk_pyramid, 4, 55}});
 }();
 
-constexpr std::array<std::string_view, 8> family_names{"point",       "line",       "triangle", "quadrangle",
-                                                       "tetrahedron", "hexahedron", "prism",    "pyramid"};
+/// Gmsh's word for elements whose corners are those of the cell.
+std::string_view word_of(VtkCell linear) {
+    switch (linear) {
+        case vtk_vertex:
+            return "point";
+        case vtk_line:
+            return "line";
+        case vtk_triangle:
+            return "triangle";
+        case vtk_quad:
+            return "quadrangle";
+        case vtk_tetra:
+            return "tetrahedron";
+        case vtk_hexahedron:
+            return "hexahedron";
+        case vtk_wedge:
+            return "prism";
+        default:
+            return "pyramid";
+    }
+}
 
 /// "8 points, 120 lines".
 std::string counted_types(const TypeCounts& counts) {
     return base::joined(counts, ", ", [](const TypeCounts::value_type& one) {
         const auto [type, count] = one;
-        std::string name(family_names[static_cast<std::size_t>(type->family)]);
+        std::string name(word_of(type->linear));
         const bool greek = name.ends_with("on");  // polyhedron, polyhedra
         if (count != 1 && greek) name.replace(name.size() - 2, 2, "a");
         if (count != 1 && !greek) name += 's';
@@ -151,10 +174,8 @@ std::vector<std::size_t> kept_places(const ElementType& type) {
     constexpr std::array<std::uint8_t, 10> third{11, 10, 15, 14, 13, 12, 17, 19, 18, 16};
     constexpr std::array<std::uint8_t, 22> fourth{15, 14, 13, 21, 20, 19, 18, 17, 16, 25, 26,
                                                   27, 33, 31, 32, 28, 29, 30, 22, 23, 24, 34};
-    const bool solid = type.family == ElementFamily::tetrahedron;
-    if ((!solid && type.family != ElementFamily::triangle) ||
-        mesh::simplex_order(type.dimension(), type.nodes) != type.order)
-        return {};
+    const bool solid = type.linear == vtk_tetra;
+    if (!type.is_simplex() || mesh::simplex_order(type.dimension(), type.nodes) != type.order) return {};
     std::vector<std::size_t> places(type.nodes);
     std::iota(places.begin(), places.end(), std::size_t{0});
     if (!solid) return places;
@@ -170,16 +191,16 @@ std::vector<std::size_t> kept_places(const ElementType& type) {
 /// Elements of several types, or none of which is a mesh's own: by their corners, but for curved simplices.
 void read_shapes(const Target& to, std::span<const Run> runs) {
     Mesh::Shapes& shapes = to.cells.mesh.shapes;
-    constexpr std::array<std::uint8_t, 8> linear_types{0, 0, 5, 9, 10, 12, 13, 14};  // VTK's
     std::map<const ElementType*, std::vector<std::size_t>> kept;
     for (const Run& run : runs) {
         const ElementType& own = *to.elements.blocks[run.id].type;
         const auto [places, is_new] = kept.try_emplace(&own);
         if (is_new) places->second = kept_places(own);
         const bool whole = !places->second.empty();
-        const std::uint8_t linear = linear_types[static_cast<std::size_t>(own.family)],
-                           curved = own.dimension() == 3 ? 71 : 69, type = whole ? curved : linear;
-        const auto corners = static_cast<std::int64_t>(whole ? own.nodes : mesh::shape_of(type).corners);
+        const std::uint8_t type = !whole                 ? own.linear
+                                  : own.dimension() == 3 ? vtk_lagrange_tetra
+                                                         : vtk_lagrange_triangle;
+        const auto corners = static_cast<std::int64_t>(whole ? own.nodes : mesh::cell_type(type).corners);
         shapes.types.insert(shapes.types.end(), run.count, type);
         for (std::size_t i = 0; i < run.count; ++i)
             shapes.ends.push_back((shapes.ends.empty() ? 0 : shapes.ends.back()) + corners);
@@ -189,7 +210,7 @@ void read_shapes(const Target& to, std::span<const Run> runs) {
         const ElementBlock& block = to.elements.blocks[run.id];
         if (!to.take_head_of(row, block, i)) return false;
         const std::vector<std::size_t>& places = kept.at(block.type);
-        const std::size_t corners = places.empty() ? mesh::shape_of(shapes.types[i]).corners : places.size();
+        const std::size_t corners = places.empty() ? mesh::cell_type(shapes.types[i]).corners : places.size();
         const auto end = static_cast<std::size_t>(shapes.ends[i]);
         for (std::size_t k = 0; k < block.type->nodes; ++k) {
             Mesh::Index node = 0;
@@ -279,11 +300,16 @@ const ElementType* element_type(std::int64_t number) {
     return found == element_types.end() ? nullptr : found;
 }
 
+const ElementType& simplex_element(int dimension, int order) {
+    return *std::ranges::find_if(element_types, [&](const ElementType& type) {
+        return type.is_simplex() && type.dimension() == dimension && type.order == order;
+    });
+}
+
 MshCells read_msh_cells(const MshFile& file, const MshElements& elements, const MshNodes& nodes) {
     const TypeCounts types = choose(file, elements.counts);
     const ElementType& type = *types.begin()->first;
-    const bool simplices = types.size() == 1 && type.order <= 2 &&
-                           (type.family == ElementFamily::tetrahedron || type.family == ElementFamily::triangle);
+    const bool simplices = types.size() == 1 && type.order <= 2 && type.is_simplex();
     MshCells cells;
     cells.mesh.dimension = type.dimension();
     cells.left_out = elements.counts;

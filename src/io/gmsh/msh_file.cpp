@@ -266,7 +266,7 @@ Number Walk::step(const char* name, const Take& take) {
         if (row.at() > end()) refuse("the section ends too early", name, "the end of the section");
         at_ = row.at();
     };
-    text_ ? from(Row<true>(*file_, at_)) : from(Row<false>(*file_, at_));
+    text_ ? from(NumberScanner<true>(*file_, at_)) : from(NumberScanner<false>(*file_, at_));
     return number;
 }
 

@@ -130,11 +130,11 @@ struct RowFault {
 
 /// Numbers one after the other: words of text, or the bytes of a binary file, which must be there.
 template <bool is_text>
-class Row {
+class NumberScanner {
 public:
     static constexpr bool text = is_text;
 
-    Row(const MshFile& file, const char* at)
+    NumberScanner(const MshFile& file, const char* at)
         : at_(at), end_(file.end()), wide_(file.version() == 41), swapped_(file.swapped()) {}
 
     bool integer(std::int64_t& value, const char* name) {
@@ -220,7 +220,7 @@ void parse_runs(const MshFile& file, std::string_view section, std::span<const R
             }
             return true;
         };
-        return file.binary() ? all(Row<false>(file, part.at)) : all(Row<true>(file, part.at));
+        return file.binary() ? all(NumberScanner<false>(file, part.at)) : all(NumberScanner<true>(file, part.at));
     };
     if (base::share_work(file.threads(), parts.size(), [&](std::size_t p) { return read(parts[p], false); })) return;
     // Again in their order: the first one is told, whatever the threads did.

@@ -2,24 +2,24 @@
 #pragma once
 
 #include "io/gmsh/msh_file.hpp"
+#include "mesh/cell_types.hpp"
 
 namespace barycert::io {
 
-enum class ElementFamily : std::uint8_t { point, line, triangle, quadrangle, tetrahedron, hexahedron, prism, pyramid };
-
 struct ElementType {
-    int number;  ///< Gmsh's
-    ElementFamily family;
+    int number;      ///< Gmsh's
+    VtkCell linear;  ///< the cell of its corners, which come first
     int order;
     std::size_t nodes;
 
-    int dimension() const {
-        using enum ElementFamily;
-        return family == point ? 0 : family == line ? 1 : family <= quadrangle ? 2 : 3;
-    }
+    int dimension() const { return linear == vtk_line ? 1 : mesh::cell_type(linear).dimension(); }
+    bool is_simplex() const { return linear == vtk_triangle || linear == vtk_tetra; }
 };
 
 const ElementType* element_type(std::int64_t number);
+
+/// Triangles and tetrahedra of order 1 and 2.
+const ElementType& simplex_element(int dimension, int order);
 
 /// How many elements there are of each type, if there are any; in the order of their numbers.
 using TypeCounts = std::map<const ElementType*, std::size_t>;

@@ -4,6 +4,7 @@
 #include "io/gmsh/msh_parts.hpp"
 #include "io/vtk/raw_grid.hpp"
 #include "mesh/mid_edges.hpp"
+#include "mesh/pulling.hpp"
 
 namespace barycert {
 namespace io {

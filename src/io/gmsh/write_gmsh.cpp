@@ -5,6 +5,7 @@
 
 #include "core/base/range.hpp"
 #include "io/formats.hpp"
+#include "io/gmsh/msh_parts.hpp"
 #include "io/row_output.hpp"
 #include "mesh/consistency.hpp"
 #include "mesh/mid_edges.hpp"
@@ -228,11 +229,7 @@ private:
         end_section("Nodes");
     }
 
-    int type() const {
-        const bool second = !mesh_.mid_nodes.empty();
-        if (mesh_.dimension == 3) return second ? 11 : 4;
-        return second ? 9 : 2;
-    }
+    int type() const { return simplex_element(mesh_.dimension, mesh_.mid_nodes.empty() ? 1 : 2).number; }
 
     /// Calls put with the tag of each node of the cell, in Gmsh's order.
     template <class Put>

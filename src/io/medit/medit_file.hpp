@@ -14,6 +14,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "core/vtk_cell.hpp"
 #include "io/tetgen/scanner.hpp"
 #include "io/vtk/raw_grid.hpp"
 
@@ -62,13 +63,13 @@ struct KeywordList {
 // Codes of libMeshb's documentation. What is not named here is left out in any case. Some programs write Hexaedra.
 inline constexpr std::array<KeywordList, 12> keyword_lists{
     {{vertices, 0, 0, "4 Vertices"},
-     {cells, 1, 3, "5 Edges 2 25 EdgesP2 3 92 EdgesP3 4 93 EdgesP4 5"},
-     {cells, 2, 5, "6 Triangles 3 24 TrianglesP2 6 90 TrianglesP3 10 91 TrianglesP4 15"},
-     {cells, 2, 9, "7 Quadrilaterals 4 27 QuadrilateralsQ2 9 88 QuadrilateralsQ3 16 89 QuadrilateralsQ4 25"},
-     {cells, 3, 10, "8 Tetrahedra 4 30 TetrahedraP2 10 96 TetrahedraP3 20 97 TetrahedraP4 35"},
-     {cells, 3, 12, "10 Hexahedra 8 10 Hexaedra 8 33 HexahedraQ2 27 98 HexahedraQ3 64 99 HexahedraQ4 125"},
-     {cells, 3, 13, "9 Prisms 6 9 Wedges 6 86 PrismsP2 18 102 PrismsP3 40 103 PrismsP4 75"},
-     {cells, 3, 14, "49 Pyramids 5 87 PyramidsP2 14 100 PyramidsP3 30 101 PyramidsP4 55"},
+     {cells, 1, vtk_line, "5 Edges 2 25 EdgesP2 3 92 EdgesP3 4 93 EdgesP4 5"},
+     {cells, 2, vtk_triangle, "6 Triangles 3 24 TrianglesP2 6 90 TrianglesP3 10 91 TrianglesP4 15"},
+     {cells, 2, vtk_quad, "7 Quadrilaterals 4 27 QuadrilateralsQ2 9 88 QuadrilateralsQ3 16 89 QuadrilateralsQ4 25"},
+     {cells, 3, vtk_tetra, "8 Tetrahedra 4 30 TetrahedraP2 10 96 TetrahedraP3 20 97 TetrahedraP4 35"},
+     {cells, 3, vtk_hexahedron, "10 Hexahedra 8 10 Hexaedra 8 33 HexahedraQ2 27 98 HexahedraQ3 64 99 HexahedraQ4 125"},
+     {cells, 3, vtk_wedge, "9 Prisms 6 9 Wedges 6 86 PrismsP2 18 102 PrismsP3 40 103 PrismsP4 75"},
+     {cells, 3, vtk_pyramid, "49 Pyramids 5 87 PyramidsP2 14 100 PyramidsP3 30 101 PyramidsP4 55"},
      {solution, 0, 0, "62 SolAtVertices"},
      {solution, 2, 0, "64 SolAtTriangles"},
      {solution, 3, 0, "66 SolAtTetrahedra"},

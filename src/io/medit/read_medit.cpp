@@ -2,6 +2,7 @@
 #include "core/base/finite.hpp"
 #include "io/medit/medit_file.hpp"
 #include "mesh/mid_edges.hpp"
+#include "mesh/pulling.hpp"
 
 namespace barycert::io::medit {
 namespace {
@@ -165,7 +166,7 @@ private:
         std::size_t by_corners = 0;
         for (const MeditSection* const section : shapes_) {
             const std::uint8_t type = section->keyword.type;
-            const std::size_t corners = mesh::shape_of(type).corners;
+            const std::size_t corners = mesh::cell_type(type).corners;
             const Cells own = take(*section, corners);
             if (section->keyword.nodes != corners) by_corners += section->count;
             for (std::size_t i = 0; i < section->count; ++i)

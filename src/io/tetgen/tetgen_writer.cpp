@@ -25,8 +25,8 @@ std::size_t component_count(const std::vector<Field>& fields) {
 }
 
 /// The numbers of a header, of which the first is how many rows there are; and these, each behind its own number.
-template <class Row>
-void write_table(RowOutput& out, const Mesh& mesh, std::initializer_list<std::size_t> header, const Row& row) {
+template <class WriteRow>
+void write_table(RowOutput& out, const Mesh& mesh, std::initializer_list<std::size_t> header, const WriteRow& row) {
     for (const std::size_t number : header) out.number(number);
     out.end_row();
     for (std::size_t i = 0; i < *header.begin(); ++i) {
@@ -90,17 +90,17 @@ Status write_tetgen(const Mesh& mesh, const std::string& stem, const WriteOption
         return file_error(stem, std::string("cannot write the mesh: ") + fault, {}, {},
                           values_alone ? "choose .vtu, .vtk or .msh, which hold it" : "correct the mesh in memory");
     }
-    struct Part {
+    struct FileOfStem {
         const char* suffix;
         bool present;
         void (*write)(RowOutput&, const Mesh&);
     };
-    const std::array<Part, 4> parts{{{".node", true, write_nodes},
-                                     {".ele", true, write_cells},
-                                     {".face", !mesh.faces.empty(), write_faces},
-                                     {".neigh", !mesh.neighbours.empty(), write_neighbours}}};
+    const std::array<FileOfStem, 4> parts{{{".node", true, write_nodes},
+                                           {".ele", true, write_cells},
+                                           {".face", !mesh.faces.empty(), write_faces},
+                                           {".neigh", !mesh.neighbours.empty(), write_neighbours}}};
     std::vector<std::unique_ptr<RowOutput>> files;
-    for (const Part& part : parts) {
+    for (const FileOfStem& part : parts) {
         const std::string target = stem + part.suffix;
         if (!part.present && io::exists(target))
             return file_error(target, "a file of another mesh exists",

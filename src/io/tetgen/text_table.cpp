@@ -7,7 +7,7 @@ namespace barycert::io {
 namespace {
 
 /// Whole lines of a table, from byte `start` to `stop` - 1 of the file, and the rows that should stand in them.
-struct Block {
+struct LinesOfTable {
     const TextTable* table;
     std::size_t start;
     std::size_t stop;
@@ -62,7 +62,7 @@ std::optional<std::size_t> first_row_in(const TextTable& table, std::size_t star
 }
 
 /// Cuts the body at line ends; looks at the first id of each block. False if the ids cannot belong to a good file.
-bool append_blocks(const TextTable& table, std::vector<Block>& blocks) {
+bool append_blocks(const TextTable& table, std::vector<LinesOfTable>& blocks) {
     const std::size_t begin = blocks.size();
     ByteRoom room;
     const std::size_t size = table.input.size();
@@ -269,11 +269,11 @@ void make_room(TextTable& table) {
 }
 
 void parse_tables(std::span<TextTable* const> tables, int threads) {
-    std::vector<Block> blocks;
+    std::vector<LinesOfTable> blocks;
     bool good = true;
     for (const TextTable* table : tables) good = good && append_blocks(*table, blocks);
     good = good && base::share_work(threads, blocks.size(), [&](std::size_t i) {
-               const Block& block = blocks[i];
+               const LinesOfTable& block = blocks[i];
                ByteRoom room;  // the thread's next block gets the same memory
                const std::string_view text = some_bytes(*block.table, block.start, block.stop, room);
                Scanner scanner{text.data(), text.data() + text.size()};

@@ -3,12 +3,13 @@
 #include "core/base/finite.hpp"
 #include "mesh/consistency.hpp"
 #include "mesh/facets/facet_triangles.hpp"
+#include "mesh/pulling.hpp"
 
 namespace barycert::io {
 namespace {
 
 std::string name_of(std::uint8_t type) {
-    return cell_types()[type].name + " (type " + std::to_string(type) + ")";
+    return cell_types()[type].name() + " (type " + std::to_string(type) + ")";
 }
 
 /// How many cells there are of each type, if there are any.
@@ -20,7 +21,7 @@ std::string counts_by_name(const TypeCounts& counts, bool with_numbers, IsOne is
     return base::joined(counts, ", ", [&](const TypeCounts::value_type& one) {
         const auto [type, count] = one;
         if (!is_one(type)) return std::string();
-        return std::to_string(count) + " " + (with_numbers ? name_of(type) : cell_types()[type].name);
+        return std::to_string(count) + " " + (with_numbers ? name_of(type) : cell_types()[type].name());
     });
 }
 
@@ -108,7 +109,7 @@ void check_cells(const RawGrid& grid, const std::string& path) {
         const std::size_t nodes = grid.cells.nodes(cell).size();
         const CellType& type = types[grid.types[cell]];
         if (type.kind == CellKind::lower || type.kind == CellKind::other) continue;
-        const std::size_t least = mesh::shape_of(type.linear).corners;
+        const std::size_t least = type.corners;
         if (type.nodes != 0 ? nodes != type.nodes : nodes < least)
             refuse_file(path, "the nodes of cell " + std::to_string(cell) + " (from 0)",
                         (type.nodes != 0 ? std::to_string(type.nodes) : std::to_string(least) + " or more") + " in a " +
@@ -177,7 +178,7 @@ void copy_shapes(const RawGrid& grid, std::size_t count, const std::string& path
         const std::span nodes = grid.cells.nodes(cell);
         if (mesh.dimension == 2 && mesh::corners_of(type, nodes).size() < 3)
             refuse_file(path, "the nodes of cell " + std::to_string(cell) + " (from 0)",
-                        (type.name == "vtkQuadraticPolygon" ? "6 or more in a " : "3 or more in a ") +
+                        (type.number == vtk_quadratic_polygon ? "6 or more in a " : "3 or more in a ") +
                             name_of(grid.types[cell]),
                         std::to_string(nodes.size()));
         by_corners += mesh::add_shape(mesh, grid.types[cell], nodes) ? 0 : 1;

@@ -175,16 +175,16 @@ protected:
 
 class LegacyReader : LegacyText {
 public:
-    LegacyReader(std::string_view bytes, const std::string& path, Part part) : LegacyText(bytes, path), part_(part) {}
+    LegacyReader(std::string_view bytes, const std::string& path, Wanted part) : LegacyText(bytes, path), part_(part) {}
 
     RawGrid read() {
         read_head();
         read_data_set();
         for (std::string keyword = take_keyword(); !keyword.empty(); keyword = take_keyword()) read_section(keyword);
-        if (!structured_ && !has_points_ && (part_ != Part::all || cell_count() != 0))
+        if (!structured_ && !has_points_ && (part_ != Wanted::all || cell_count() != 0))
             fail("the file has no points", "POINTS", "none");
         if (structured_) make_structured();
-        if (part_ == Part::all && !structured_) gather_cells();
+        if (part_ == Wanted::all && !structured_) gather_cells();
         return std::move(grid_);
     }
 
@@ -284,7 +284,7 @@ private:
         has_points_ = true;
         grid_.narrow_points = type == NumberType::float32;
         take_numbers("the coordinates", type, std::uint64_t{3} * point_count_, grid_.points);
-        if (part_ == Part::points) rest_.remove_prefix(rest_.size());  // nothing else is wanted
+        if (part_ == Wanted::points) rest_.remove_prefix(rest_.size());  // nothing else is wanted
     }
 
     void read_cells(RawCells& cells) {
@@ -467,7 +467,7 @@ private:
                  "give them different names");
         RawArray& array = arrays.emplace_back(RawArray{.name = name, .components = static_cast<int>(components)});
         const std::uint64_t numbers = static_cast<std::uint64_t>(components) * rows;
-        const bool may_label = of_cells || (of_points && part_ == Part::point_arrays);
+        const bool may_label = of_cells || (of_points && part_ == Wanted::point_arrays);
         if (!type) return take_colors(what, numbers, array.numbers());
         const std::optional<NumberType> known = type_of_name(capitals(*type));
         if (!known) fail("the type of " + what, "double, float, int and the like", in_quotes(*type));
@@ -493,7 +493,7 @@ private:
 
     static constexpr const char* too_many = "the data before it may be cut off, or more than was announced";
 
-    Part part_;
+    Wanted part_;
     RawGrid grid_;
     std::array<RawCells, section_count> sections_;
     std::size_t point_count_ = 0;
@@ -510,7 +510,7 @@ void check_legacy_head(std::string_view bytes, const std::string& path) {
     LegacyText(bytes, path).read_head();
 }
 
-RawGrid read_legacy(std::string_view bytes, const std::string& path, Part part) {
+RawGrid read_legacy(std::string_view bytes, const std::string& path, Wanted part) {
     return LegacyReader(bytes, path, part).read();
 }
 

@@ -6,6 +6,7 @@
 #include "io/vtk/raw_grid.hpp"
 #include "mesh/consistency.hpp"
 #include "mesh/mid_edges.hpp"
+#include "mesh/pulling.hpp"
 
 namespace barycert::io {
 namespace {

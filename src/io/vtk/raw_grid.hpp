@@ -12,11 +12,9 @@
 
 namespace barycert::io {
 
-using enum mesh::VtkCell;
 using mesh::cell_types;
 using mesh::CellKind;
 using mesh::CellType;
-using mesh::VtkCell;
 
 /// The sections of polygon data. VTK numbers the cells of all sections in this order, whatever the order in the file.
 enum Section : std::size_t { vertices, lines, polygons, strips, section_count };
@@ -67,7 +65,7 @@ struct RawFaces {
 
 /// How much of a file is wanted. Texts of points, and integers of theirs that no doubles represent, are labels only
 /// where there is no mesh that would have to carry them: with point_arrays.
-enum class Part : std::uint8_t { points, point_arrays, all };
+enum class Wanted : std::uint8_t { points, point_arrays, all };
 
 struct RawGrid;
 
@@ -81,15 +79,15 @@ struct StructuredGrid {
     /// What is wrong with their number; empty: nothing. Few bytes describe any number: no more than memory holds, with
     /// so many bytes each.
     std::string fault(std::size_t bytes_a_point) const;
-    std::string fault(Part part, bool along_axes) const {
-        if (!along_axes || part != Part::all) return fault(3 * sizeof(double));
+    std::string fault(Wanted part, bool along_axes) const {
+        if (!along_axes || part != Wanted::all) return fault(3 * sizeof(double));
         constexpr std::size_t most = 1 << 20;
         return fault(std::max({counts[0], counts[1], counts[2]}) <= most ? 1 : listed);
     }
     std::size_t point_count() const { return counts[0] * counts[1] * counts[2]; }
     std::size_t cell_count() const;
     /// Cells go with Part::all. Those along axes stay unlisted then.
-    void append_to(RawGrid& grid, Part part) const;
+    void append_to(RawGrid& grid, Wanted part) const;
 };
 
 struct RawGrid {
@@ -186,7 +184,7 @@ void join_pieces(RawGrid& grid, const std::string& path);
 
 /// The first three lines of a file in the legacy format.
 void check_legacy_head(std::string_view bytes, const std::string& path);
-RawGrid read_legacy(std::string_view bytes, const std::string& path, Part part);
+RawGrid read_legacy(std::string_view bytes, const std::string& path, Wanted part);
 
 /// What read_vtk promises of cells, points, fields and notes, whatever the format. `path` is for messages. `space`: as
 /// for to_points; then polygons are triangles, too. `list_grids`: see ReadOptions.

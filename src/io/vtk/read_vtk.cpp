@@ -191,16 +191,16 @@ std::vector<SeriesStep> steps_of(std::span<const CollectionFile> files) {
 }
 
 /// What blocks make the mesh: unstructured grids; where there are none, structured ones; else polygons.
-enum class Blocks : std::uint8_t { unstructured, structured, polygons };
+enum class GridKind : std::uint8_t { unstructured, structured, polygons };
 
-Blocks kind_of_block(const std::string& path) {
-    if (has_one_of(path, {".vtp", ".pvtp"})) return Blocks::polygons;
-    return has_one_of(path, {".vti", ".vtr", ".vts"}) ? Blocks::structured : Blocks::unstructured;
+GridKind kind_of_block(const std::string& path) {
+    if (has_one_of(path, {".vtp", ".pvtp"})) return GridKind::polygons;
+    return has_one_of(path, {".vti", ".vtr", ".vts"}) ? GridKind::structured : GridKind::unstructured;
 }
 
 /// Of the files, or those that they name.
-Blocks blocks_of_mesh(std::span<const CollectionFile> files) {
-    Blocks kind = Blocks::polygons;
+GridKind blocks_of_mesh(std::span<const CollectionFile> files) {
+    GridKind kind = GridKind::polygons;
     for (const CollectionFile& file : files) {
         for (const std::string& own : vtk_mesh_files(file.path)) {
             if (has_one_of(own, {".vtu", ".vtk", ".vti", ".vtr", ".vts"})) kind = std::min(kind, kind_of_block(own));
@@ -217,7 +217,7 @@ bool is_unread(const std::string& path) {
 /// Of files that name files, each is read once. Errors are thrown as Exceptions.
 class GridReader {
 public:
-    explicit GridReader(Part part, const StepChoice& step = {}) : part_(part), step_(step) {}
+    explicit GridReader(Wanted part, const StepChoice& step = {}) : part_(part), step_(step) {}
 
     /// `depth`: of the files that name it.
     RawGrid read(const std::string& path, int depth = 0) {
@@ -245,7 +245,7 @@ private:
         std::vector<std::string> others;
         if (!blocks_) blocks_ = blocks_of_mesh(files);
         for (const CollectionFile& file : files) {
-            if (part_ == Part::all && (is_unread(file.path) || kind_of_block(file.path) > *blocks_)) {
+            if (part_ == Wanted::all && (is_unread(file.path) || kind_of_block(file.path) > *blocks_)) {
                 others.push_back(file.block.empty() ? file.path : file.block + " (" + file.path + ")");
                 continue;
             }
@@ -257,7 +257,7 @@ private:
         }
         const std::string left_out = std::to_string(others.size()) + " blocks beside those with the mesh: ";
         if (!others.empty()) grid.notes.push_back({Note::Kind::left_out, left_out + list_of(others), path, true});
-        if (part_ == Part::all) join_pieces(grid, path);
+        if (part_ == Wanted::all) join_pieces(grid, path);
         return grid;
     }
 
@@ -278,9 +278,9 @@ private:
         return grid;
     }
 
-    Part part_;
+    Wanted part_;
     StepChoice step_;  ///< not yet made use of
-    std::optional<Blocks> blocks_;
+    std::optional<GridKind> blocks_;
     std::set<std::string> seen_;
 };
 
@@ -288,7 +288,7 @@ private:
 Result<PointTable> read_table(const std::string& path, int dimension, bool arrays,
                               const std::vector<std::string>* names, bool labels, bool finite) {
     return read_guarded(path, [&]() -> Result<PointTable> {
-        RawGrid grid = GridReader(arrays ? Part::point_arrays : Part::points).read(path);
+        RawGrid grid = GridReader(arrays ? Wanted::point_arrays : Wanted::points).read(path);
         PointTable table;
         table.dimension = dimension;
         table.notes = std::move(grid.notes);
@@ -375,7 +375,7 @@ Result<io::PointTable> io::read_vtk_table(const std::string& path, bool arrays, 
 
 Result<Mesh> io::read_vtk_in_space(const std::string& path, const ReadOptions& options, InSpace* space) {
     return read_guarded(path, [&]() -> Result<Mesh> {
-        GridReader reader(Part::all, options.step);
+        GridReader reader(Wanted::all, options.step);
         RawGrid grid = reader.read(path);
         if (reader.step_left()) return no_series(path);
         return to_mesh(std::move(grid), path, space, options.list_grids);

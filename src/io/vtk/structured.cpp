@@ -21,7 +21,8 @@ void add_cells(const StructuredGrid& grid, RawGrid& to) {
     }
     if (wide.empty()) return;
     const bool along_axes = !grid.axes[0].empty();
-    constexpr std::array<std::array<std::uint8_t, 3>, 2> types{{{vtk_line, vtk_quad, 12}, {vtk_line, 8, 11}}};
+    constexpr std::array<std::array<std::uint8_t, 3>, 2> types{
+        {{vtk_line, vtk_quad, vtk_hexahedron}, {vtk_line, vtk_pixel, vtk_voxel}}};
     const std::size_t corners = std::size_t{1} << wide.size();
     std::array<std::size_t, 8> offsets{};
     for (std::size_t corner = 0; corner < corners; ++corner) {
@@ -61,11 +62,11 @@ std::size_t StructuredGrid::cell_count() const {
     return point_count() == 0 ? 0 : cells[0] * cells[1] * cells[2];
 }
 
-void StructuredGrid::append_to(RawGrid& grid, Part part) const {
+void StructuredGrid::append_to(RawGrid& grid, Wanted part) const {
     if (point_count() == 0) return;
-    if (axes[0].empty() && part == Part::all) return add_cells(*this, grid);
+    if (axes[0].empty() && part == Wanted::all) return add_cells(*this, grid);
     if (!axes[0].empty()) grid.unlisted = *this;
-    if (grid.unlisted && (part != Part::all || point_count() == 1)) grid.list_points();
+    if (grid.unlisted && (part != Wanted::all || point_count() == 1)) grid.list_points();
 }
 
 void RawGrid::list_points() {

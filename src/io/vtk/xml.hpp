@@ -58,6 +58,6 @@ struct XmlTree : FileText {
 XmlTree parse_xml(std::string_view bytes, const std::string& path);
 
 /// The data set of one file: UnstructuredGrid, PolyData, ImageData, RectilinearGrid or StructuredGrid.
-RawGrid read_xml(XmlTree tree, Part part);
+RawGrid read_xml(XmlTree tree, Wanted part);
 
 }  // namespace barycert::io

@@ -28,7 +28,7 @@ std::optional<std::array<T, count>> parse_all(std::string_view text) {
 
 class XmlReader : XmlTree {
 public:
-    XmlReader(XmlTree tree, Part part) : XmlTree(std::move(tree)), part_(part) { take_layout(); }
+    XmlReader(XmlTree tree, Wanted part) : XmlTree(std::move(tree)), part_(part) { take_layout(); }
 
     RawGrid read() {
         const std::string type(root().attribute_or("type", ""));
@@ -52,15 +52,15 @@ public:
                        : read_points(element, count_of(element, "NumberOfPoints", grid.point_count()), piece);
             if (const XmlElement* const of_points = child(&element, "PointData"); of_points != nullptr) {
                 piece.global_ids = of_points->attribute_or("GlobalIds", "");
-                if (part_ == Part::points) {
+                if (part_ == Wanted::points) {
                     piece.unread_arrays = names_of(*of_points);
                 } else {
                     read_arrays(*of_points, piece.point_count(), piece.has_steps, piece.point_arrays);
                 }
             }
-            if (part_ == Part::all && !structured) read_cells(element, grid.types.size(), piece);
+            if (part_ == Wanted::all && !structured) read_cells(element, grid.types.size(), piece);
             const XmlElement* const of_cells = child(&element, "CellData");
-            if (part_ == Part::all && of_cells != nullptr)
+            if (part_ == Wanted::all && of_cells != nullptr)
                 read_arrays(*of_cells, piece.cell_count(), piece.has_steps, piece.cell_arrays);
             append_piece(grid, std::move(piece), path);
         }
@@ -318,7 +318,7 @@ private:
             refuse_at(array, "the components of " + what, "a count of 1 or more", in_quotes(text));
         to.components = static_cast<int>(components);
         const std::optional<NumberType> type = array.number_type();
-        const bool may_label = !of_points || part_ == Part::point_arrays;
+        const bool may_label = !of_points || part_ == Wanted::point_arrays;
         if (to.name.empty()) {
             to.fault = "it has no name";
         } else if (type) {
@@ -336,13 +336,13 @@ private:
         }
     }
 
-    Part part_;
+    Wanted part_;
     bool is_polygons_ = false;
 };
 
 }  // namespace
 
-RawGrid read_xml(XmlTree tree, Part part) {
+RawGrid read_xml(XmlTree tree, Wanted part) {
     return XmlReader(std::move(tree), part).read();
 }
 

@@ -43,12 +43,9 @@ struct Shape {
     double min_angle = 0, max_angle = 180;  ///< degrees
 };
 
-using base::cross, base::dot, base::minus;
+using base::cross, base::dot, base::minus, base::Vector3;
 template <class Real>
-using Vector = base::Vector3<Real>;
-
-template <class Real>
-Real length(const Vector<Real>& x) {
+Real length(const Vector3<Real>& x) {
     return std::sqrt(dot(x, x));
 }
 
@@ -65,7 +62,7 @@ Shape shape_of_lengths(int d, Real radius, Real inradius, Real shortest, Real lo
 
 template <class Real>
 Shape triangle(const Real* e, Real area) {
-    const Vector<Real> sides[] = {{e[0], e[1], 0}, {e[2], e[3], 0}, {e[2] - e[0], e[3] - e[1], 0}};
+    const Vector3<Real> sides[] = {{e[0], e[1], 0}, {e[2], e[3], 0}, {e[2] - e[0], e[3] - e[1], 0}};
     const Real l[] = {length(sides[0]), length(sides[1]), length(sides[2])};
     const auto [shortest, longest] = std::minmax({l[0], l[1], l[2]});
     // Angles from twice the area and a scalar product: accurate near 0 and 180 degrees, where a cosine is not.
@@ -79,10 +76,10 @@ Shape triangle(const Real* e, Real area) {
 
 template <class Real>
 Shape tetrahedron(const Real* e, Real volume) {
-    const Vector<Real> a{e[0], e[1], e[2]}, b{e[3], e[4], e[5]}, c{e[6], e[7], e[8]};
-    const Vector<Real> ab = minus(b, a), ac = minus(c, a), bc = minus(c, b);
+    const Vector3<Real> a{e[0], e[1], e[2]}, b{e[3], e[4], e[5]}, c{e[6], e[7], e[8]};
+    const Vector3<Real> ab = minus(b, a), ac = minus(c, a), bc = minus(c, b);
     // Normals of the faces opposite to each corner, as long as twice the area, all inward or all outward.
-    const Vector<Real> normals[] = {cross(ab, ac), cross(c, b), cross(a, c), cross(b, a)};
+    const Vector3<Real> normals[] = {cross(ab, ac), cross(c, b), cross(a, c), cross(b, a)};
     Real area[4];
     for (int i = 0; i < 4; ++i) area[i] = length(normals[i]) / 2;
     const Real aa = dot(a, a), bb = dot(b, b), cc = dot(c, c);
@@ -109,8 +106,8 @@ Shape tetrahedron(const Real* e, Real volume) {
     const auto angle = [&](const Edge& edge, Real product) {
         return std::atan2(6 * volume * std::sqrt(edge.squared), -product);
     };
-    const Vector<Real> x = cross(b, c), y = cross(c, a), z = cross(a, b);
-    Vector<Real> centre;
+    const Vector3<Real> x = cross(b, c), y = cross(c, a), z = cross(a, b);
+    Vector3<Real> centre;
     for (std::size_t k = 0; k < 3; ++k) centre[k] = aa * x[k] + bb * y[k] + cc * z[k];
     const Real radius = length(centre) / (12 * volume);
     const Real inradius = 3 * volume / (area[0] + area[1] + area[2] + area[3]);

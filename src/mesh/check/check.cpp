@@ -151,7 +151,7 @@ void check_all(Checked& c) {
     }
 }
 
-Verdict verdict_of(const Mesh& mesh, Findings findings) {
+Verdict verdict_of(const Mesh& mesh, CheckRun findings) {
     if (const char* fault = fault_of_sizes(mesh); fault != nullptr) {
         findings.defects.add(DefectKind::bad_structure, {.detail = fault});
         return findings.report_defects();

@@ -12,35 +12,36 @@ namespace {
 // over the whole range of doubles took all the time. Each axis has its own unit; what follows is affine.
 
 using Number = core::WholeNumber;
-using Vector = core::WholeVector;
 using base::cross, base::dot, base::minus;
+using core::WholeVector;
 
 /// x / weight. The weight is positive.
 struct Point {
-    Vector x;
+    WholeVector x;
     Number weight;
 };
 
 /// [i][j]: corner j of `other` over the side of the cell opposite to corner i: not negative for all i if it is in the
 /// cell. Of a triangle in space also over and under its plane.
-std::vector<std::vector<Number>> over_sides(const std::vector<Vector>& cell, const std::vector<Vector>& other) {
+std::vector<std::vector<Number>> over_sides(const std::vector<WholeVector>& cell,
+                                            const std::vector<WholeVector>& other) {
     const std::size_t n = cell.size();
     std::vector<std::vector<Number>> over(n);
-    const Vector up = n == 3 ? cross(minus(cell[1], cell[0]), minus(cell[2], cell[0])) : Vector();
+    const WholeVector up = n == 3 ? cross(minus(cell[1], cell[0]), minus(cell[2], cell[0])) : WholeVector();
     if (n == 3) {  // in the plane all are zero
         over.resize(5);
-        for (const Vector& p : other) {
+        for (const WholeVector& p : other) {
             over[3].push_back(dot(up, minus(p, cell[0])));
             over[4].push_back(-over[3].back());
         }
     }
     for (std::size_t i = 0; i < n; ++i) {
-        const Vector &a = cell[(i + 1) % n], &b = cell[(i + 2) % n];
-        Vector normal = cross(minus(b, a), n == 3 ? up : minus(cell[(i + 3) % n], a));
+        const WholeVector &a = cell[(i + 1) % n], &b = cell[(i + 2) % n];
+        WholeVector normal = cross(minus(b, a), n == 3 ? up : minus(cell[(i + 3) % n], a));
         if (dot(normal, minus(cell[i], a)) < 0) {
             for (Number& x : normal) x = -x;
         }
-        for (const Vector& p : other) over[i].push_back(dot(normal, minus(p, a)));
+        for (const WholeVector& p : other) over[i].push_back(dot(normal, minus(p, a)));
     }
     return over;
 }
@@ -48,7 +49,8 @@ std::vector<std::vector<Number>> over_sides(const std::vector<Vector>& cell, con
 /// Corners of a in b, and where edges of a pass through sides of b into or out of b. On an edge from p to q that passes
 /// through a side at (q u - p v) / (u - v), u and v the heights of p and q over it, any height is the same mean of
 /// those at p and q.
-void add_extreme_points(const std::vector<Vector>& a, const std::vector<Vector>& b, std::vector<Point>& points) {
+void add_extreme_points(const std::vector<WholeVector>& a, const std::vector<WholeVector>& b,
+                        std::vector<Point>& points) {
     const auto over = over_sides(b, a);
     const std::size_t n = a.size();
     for (std::size_t i = 0; i < n; ++i) {
@@ -76,15 +78,15 @@ void add_extreme_points(const std::vector<Vector>& a, const std::vector<Vector>&
 /// As many of the points as span what all of them do: those whose homogeneous coordinates do not depend on those of the
 /// ones before, by elimination.
 std::vector<Point> spanning(std::size_t d, const std::vector<Point>& points) {
-    struct Row {
+    struct PivotRow {
         std::array<Number, 4> at;
         std::size_t pivot;
     };
-    std::vector<Row> rows;
+    std::vector<PivotRow> rows;
     std::vector<Point> chosen;
     for (const Point& p : points) {
         std::array<Number, 4> v{p.x[0], p.x[1], p.x[2], p.weight};
-        for (const Row& row : rows) {
+        for (const PivotRow& row : rows) {
             const Number factor = v[row.pivot];
             if (factor == 0) continue;
             for (std::size_t k = 0; k < 4; ++k) v[k] = v[k] * row.at[row.pivot] - row.at[k] * factor;
@@ -158,11 +160,11 @@ CellContact common_part(Simplex simplex, const CellPair& cells, const Corners& a
         for (std::size_t i = 0; i < n * d; ++i) units[i % d].add(cell[i / d][i % d]);
     }
     const auto whole = [&](const Corners& cell) {
-        std::vector<Vector> corners(n);
+        std::vector<WholeVector> corners(n);
         for (std::size_t i = 0; i < n * d; ++i) corners[i / d][i % d] = core::whole(cell[i / d][i % d], units[i % d]);
         return corners;
     };
-    const std::vector<Vector> p = whole(a), q = whole(b);
+    const std::vector<WholeVector> p = whole(a), q = whole(b);
     std::vector<Point> all;
     add_extreme_points(p, q, all);
     add_extreme_points(q, p, all);

@@ -11,7 +11,7 @@ using Index = Mesh::Index;
 struct Difference {
     double high = 0, low = 0;
 };
-using Vector = std::array<Difference, 3>;
+using DifferenceVector = std::array<Difference, 3>;
 
 /// x u - y v to about its last place, however much of it cancels.
 double minor(const Difference& x, const Difference& u, const Difference& y, const Difference& v) {
@@ -20,8 +20,8 @@ double minor(const Difference& x, const Difference& u, const Difference& y, cons
            (x.high * u.low + x.low * u.high - y.high * v.low - y.low * v.high);
 }
 
-Vector cross(const Vector& u, const Vector& v) {
-    Vector out;
+DifferenceVector cross(const DifferenceVector& u, const DifferenceVector& v) {
+    DifferenceVector out;
     for (std::size_t k = 0; k < 3; ++k) {
         const std::size_t a = (k + 1) % 3, b = (k + 2) % 3;
         out[k].high = minor(u[a], v[b], u[b], v[a]);
@@ -29,11 +29,11 @@ Vector cross(const Vector& u, const Vector& v) {
     return out;
 }
 
-double dot(const Vector& u, const Vector& v) {
+double dot(const DifferenceVector& u, const DifferenceVector& v) {
     return u[0].high * v[0].high + u[1].high * v[1].high + u[2].high * v[2].high;
 }
 
-double length(const Vector& u) {
+double length(const DifferenceVector& u) {
     return std::hypot(u[0].high, u[1].high, u[2].high);
 }
 
@@ -53,15 +53,16 @@ public:
         }
         const int unit = std::ilogb(extent);  // squares of lengths are to be doubles
         radius = std::ldexp(radius, -unit);
-        const Vector normal = cross(between(f.nodes[0], f.nodes[1], unit), between(f.nodes[0], f.nodes[d_ - 1], unit));
+        const DifferenceVector normal =
+            cross(between(f.nodes[0], f.nodes[1], unit), between(f.nodes[0], f.nodes[d_ - 1], unit));
         bool inside = d_ == 3;
         h.distance = radius;
         for (std::size_t i = 0; i < d_; ++i) {
-            const Vector to = between(f.nodes[i], node, unit);
+            const DifferenceVector to = between(f.nodes[i], node, unit);
             if (length(to) <= radius) return {.node = node, .face = {-1, -1, -1}, .cell = f.cell};
             if (d_ == 2 && i == 1) break;
             const Index next = f.nodes[(i + 1) % d_];
-            const Vector side = between(f.nodes[i], next, unit), area = cross(side, to);
+            const DifferenceVector side = between(f.nodes[i], next, unit), area = cross(side, to);
             const double along = dot(side, to), distance = length(area) / length(side);
             inside = inside && dot(area, normal) > 0;
             if (along > 0 && along < dot(side, side) && distance <= h.distance)
@@ -122,8 +123,8 @@ private:
     }
 
     /// In units of 2^unit.
-    Vector between(Index from, Index to, int unit) const {
-        Vector v;
+    DifferenceVector between(Index from, Index to, int unit) const {
+        DifferenceVector v;
         for (std::size_t k = 0; k < d_; ++k) {
             const double a = std::ldexp(at(to)[k], -unit), b = std::ldexp(at(from)[k], -unit);
             const double high = a - b, less = high - a;
@@ -163,7 +164,7 @@ void leave_out_right_ones(const Checked& c, const NearFaces& faces, std::vector<
 
 }  // namespace
 
-Found<HangingNode> nearly_hanging(const Checked& c, const std::vector<double>& radius, std::size_t limit) {
+LimitedList<HangingNode> nearly_hanging(const Checked& c, const std::vector<double>& radius, std::size_t limit) {
     const int d = c.mesh.dimension;
     std::vector<Box> boxes;
     for (const BoundaryFacet& f : c.boundary) boxes.push_back(box_of(d, placed(c.mesh, f).at.data(), d));

@@ -1,6 +1,7 @@
 // The isoparametric maps of cells: where their Jacobians are positive, or not, and whether they agree at facets.
 #include <cmath>
 
+#include "core/vtk_cell.hpp"
 #include "mesh/cell_maps.hpp"
 #include "mesh/check/stages.hpp"
 #include "mesh/consistency.hpp"
@@ -140,7 +141,7 @@ std::optional<MapReport> check_maps(const Checked& c) {
         mapped[whole] = 1;
         JacobianSign sign = iso::jacobian_sign(*reference, maps.places(whole));
         // Files have wedges in both orders, and their parts are positive (mesh/pulling.cpp).
-        const bool wedge = !c.mesh.shapes.types.empty() && c.mesh.shapes.types[whole] == 13;
+        const bool wedge = !c.mesh.shapes.types.empty() && c.mesh.shapes.types[whole] == vtk_wedge;
         if (wedge && sign == JacobianSign::negative) sign = JacobianSign::positive;
         signs[whole] = static_cast<std::int8_t>(sign);
     });

@@ -18,7 +18,7 @@ Item item_of(const Mesh& mesh, std::size_t cell) {
 
 /// The pairs of items for which `conflict` holds, up to `limit`; ascending.
 template <class Conflict>
-Found<Pair> conflicts(int d, const std::vector<Item>& items, Conflict conflict, std::size_t limit) {
+LimitedList<Pair> conflicts(int d, const std::vector<Item>& items, Conflict conflict, std::size_t limit) {
     const Candidates candidates(d, items);
     return up_to<Pair>(limit, items.size(), 512, [&](std::size_t first, std::size_t last, auto& part) {
         for (std::size_t i = first; i < last && part.size() <= limit; ++i) {
@@ -61,7 +61,7 @@ BoundaryContacts find_boundary_contacts(Checked& c, std::size_t limit) {
         cells.push_back(facet.cell);
         items.push_back(item_of(f, d));
     }
-    const Found<Pair> found = conflicts(
+    const LimitedList<Pair> found = conflicts(
         d, items, [&](std::size_t i, std::size_t j) { return facets_conflict(d, proper_facets[i], proper_facets[j]); },
         limit);
     BoundaryContacts out;
@@ -150,7 +150,7 @@ std::vector<CellPair> find_overlapping_cells(Checked& c) {
         cells.push_back(static_cast<Mesh::Index>(cell));
         items.push_back(item_of(c.mesh, cell));
     }
-    const Found<Pair> found = conflicts(
+    const LimitedList<Pair> found = conflicts(
         d, items, [&](std::size_t i, std::size_t j) { return interiors_meet(d, items[i].at, items[j].at); },
         pair_limit);
     std::vector<CellPair> pairs;

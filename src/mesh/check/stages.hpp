@@ -99,7 +99,7 @@ private:
 };
 
 /// What is asked of a mesh or a surface, and what is found of it in one stage after the other.
-struct Findings {
+struct CheckRun {
     const CheckOptions& options;
     CheckReport& report;
     DefectList defects{options.examples, report.measures.defects};
@@ -146,15 +146,15 @@ void in_waves(std::size_t count, std::size_t block, const Part& empty, Work work
 
 /// What a search found, and whether that is all: it stops where it finds more than anybody wants.
 template <class T>
-struct Found {
+struct LimitedList {
     std::vector<T> list;
     bool complete = true;
 };
 
 /// What work(first, last, part) adds to the parts, in order, up to `limit`. A part with more need not go on.
 template <class T, class Work>
-Found<T> up_to(std::size_t limit, std::size_t count, std::size_t block, Work work) {
-    Found<T> found;
+LimitedList<T> up_to(std::size_t limit, std::size_t count, std::size_t block, Work work) {
+    LimitedList<T> found;
     in_waves(
         count, block, std::vector<T>(), work,
         [&](const std::vector<T>& part) { found.list.insert(found.list.end(), part.begin(), part.end()); },
@@ -190,7 +190,7 @@ inline PlacedFacet placed(const Mesh& mesh, const BoundaryFacet& facet) {
 }
 
 /// A mesh whose arrays make nodes and cells, and what is known of it.
-struct Checked : Findings {
+struct Checked : CheckRun {
     const Mesh& mesh;
     const ExactVolumes volumes{mesh.dimension, mesh.points};
     const std::vector<std::int8_t>& orientation = report.measures.orientation;
@@ -300,7 +300,7 @@ bool for_each_near(const Mesh& mesh, const std::vector<Mesh::Index>& nodes, cons
 /// The nodes no farther from an edge or a facet than the radius of the node and of each node of the facet, and farther
 /// from these nodes; of no cell that has the node, too. `radius`: of each node, 0 of those that are not of the
 /// boundary. Ascending, up to `limit`.
-Found<HangingNode> nearly_hanging(const Checked& c, const std::vector<double>& radius, std::size_t limit);
+LimitedList<HangingNode> nearly_hanging(const Checked& c, const std::vector<double>& radius, std::size_t limit);
 
 /// Finds near_nodes and near_hanging, as CheckOptions::near has them, crack, and of touching.hanging those that are no
 /// near nodes. `meeting`: cells that meet where they must not; what two of them have of these is the cause.

@@ -13,7 +13,7 @@ namespace barycert::surface {
 namespace {
 
 using Node = std::size_t;  ///< of the facet, in the order of the sweep
-using Edge = std::pair<Node, Node>;
+using DirectedEdge = std::pair<Node, Node>;
 using Place = std::array<double, 2>;  ///< in the projection
 
 int turn_of(const Place& a, const Place& b, const Place& c) {
@@ -21,7 +21,7 @@ int turn_of(const Place& a, const Place& b, const Place& c) {
 }
 
 struct EdgeHash {
-    std::size_t operator()(const Edge& e) const { return (e.first << 32 | e.second) * 0x9E3779B97F4A7C15U; }
+    std::size_t operator()(const DirectedEdge& e) const { return (e.first << 32 | e.second) * 0x9E3779B97F4A7C15U; }
 };
 
 /// The axis to project along.
@@ -84,10 +84,10 @@ public:
                 segments_.insert(ordered(a, b));
                 return;
             }
-            std::deque<Edge> crossed;
+            std::deque<DirectedEdge> crossed;
             const Node end = trace(a, b, crossed);
             if (end == at_.size()) return fault(FacetFault::Kind::crossing, a, b, crossed.back());
-            if (end != b) fault(FacetFault::Kind::on_segment, a, b, Edge{end, end});
+            if (end != b) fault(FacetFault::Kind::on_segment, a, b, DirectedEdge{end, end});
             uncross(a, end, crossed);
             segments_.insert(ordered(a, end));
             a = end;
@@ -96,16 +96,16 @@ public:
 
     /// The triangles that cannot be reached from outside, or from a place in a hole, over no segment.
     std::vector<std::array<Node, 3>> region(const std::vector<Place>& holes) {
-        std::vector<Edge> open;  // edges of triangles that go
+        std::vector<DirectedEdge> open;  // edges of triangles that go
         for (const auto& entry : apex_) {
-            const Edge edge = entry.first;
+            const DirectedEdge edge = entry.first;
             const Node apex = entry.second;
-            const Edge back{edge.second, edge.first};
+            const DirectedEdge back{edge.second, edge.first};
             if (!apex_.contains(back) && !segments_.contains(ordered(edge.first, edge.second))) open.push_back(edge);
             if (std::ranges::any_of(holes, [&](const auto& p) { return holds(edge, apex, p); })) open.push_back(edge);
         }
         while (!open.empty()) {
-            const Edge edge = open.back();
+            const DirectedEdge edge = open.back();
             open.pop_back();
             const auto found = apex_.find(edge);
             if (found == apex_.end()) continue;
@@ -125,7 +125,7 @@ public:
     }
 
 private:
-    static Edge ordered(Node a, Node b) { return a < b ? Edge{a, b} : Edge{b, a}; }
+    static DirectedEdge ordered(Node a, Node b) { return a < b ? DirectedEdge{a, b} : DirectedEdge{b, a}; }
     bool has(Node a, Node b) const { return apex_.contains({a, b}) || apex_.contains({b, a}); }
 
     void add(Node a, Node b, Node c) {
@@ -135,7 +135,7 @@ private:
         out_[a] = b, out_[b] = c, out_[c] = a;
     }
 
-    bool holds(const Edge& edge, Node apex, const Place& p) const {
+    bool holds(const DirectedEdge& edge, Node apex, const Place& p) const {
         const std::array<Node, 3> t{edge.first, edge.second, apex};
         for (std::size_t k = 0; k < 3; ++k) {
             if (turn_of(at_[t[k]], at_[t[(k + 1) % 3]], p) < 0) return false;
@@ -185,7 +185,7 @@ private:
     }
 
     /// The edges between a and b; returns b, a node before it on ab, or no node at a segment, which is the last edge.
-    Node trace(Node a, Node b, std::deque<Edge>& crossed) const {
+    Node trace(Node a, Node b, std::deque<DirectedEdge>& crossed) const {
         Node x = 0, y = 0, on = at_.size();
         around(a, [&](Node right, Node left) {
             const int r = turn(a, b, right), l = turn(a, b, left);
@@ -208,7 +208,7 @@ private:
 
     /// Flips the edges that cross ab until none does (S. W. Sloan, A fast algorithm for generating constrained Delaunay
     /// triangulations, 1993).
-    void uncross(Node a, Node b, std::deque<Edge>& crossed) {
+    void uncross(Node a, Node b, std::deque<DirectedEdge>& crossed) {
         while (!crossed.empty()) {
             const auto [x, y] = crossed.front();
             crossed.pop_front();
@@ -222,14 +222,14 @@ private:
             add(p, x, q);
             add(q, y, p);
             const bool apart = p == a || p == b || q == a || q == b || turn(a, b, p) == turn(a, b, q);
-            if (!apart) crossed.emplace_back(turn(a, b, p) < 0 ? Edge{p, q} : Edge{q, p});
+            if (!apart) crossed.emplace_back(turn(a, b, p) < 0 ? DirectedEdge{p, q} : DirectedEdge{q, p});
         }
     }
 
     std::vector<Place> at_;
     std::vector<Node> out_;  ///< of each node: the end of an edge from it
-    std::unordered_map<Edge, Node, EdgeHash> apex_;
-    std::unordered_set<Edge, EdgeHash> segments_;
+    std::unordered_map<DirectedEdge, Node, EdgeHash> apex_;
+    std::unordered_set<DirectedEdge, EdgeHash> segments_;
 };
 
 /// The polygon turns clockwise: so it does at its lowest corner, unless it is no simple one.
@@ -294,7 +294,7 @@ FacetTriangles triangles_of_facet(std::span<const double> points, std::span<cons
         for (std::size_t i = 0; i < polygon.size() && polygon.size() > 1; ++i) {
             if (polygon.size() == 2 && i == 1) break;
             const Node a = place(polygon[i]), b = place(polygon[(i + 1) % polygon.size()]);
-            all.insert(a, b, [&](FacetFault::Kind kind, Node from, Node to, const Edge& other) {
+            all.insert(a, b, [&](FacetFault::Kind kind, Node from, Node to, const DirectedEdge& other) {
                 const bool cross = kind == FacetFault::Kind::crossing;
                 crossing |= cross;
                 out.faults.push_back({kind,

@@ -82,8 +82,8 @@ public:
     std::size_t bytes() const { return groups_.bytes(); }
 
     /// found(i) for each box i that meets `box`, until it returns false.
-    template <class Found>
-    void for_each_meeting(const CellBox& box, Found found) const {
+    template <class UseCell>
+    void for_each_meeting(const CellBox& box, UseCell found) const {
         struct Open {
             std::size_t level, group;
         };

@@ -138,7 +138,7 @@ constexpr std::size_t block_size = std::size_t{1} << 13;
 /// What blocks leave open is linked in parts, by hash.
 constexpr std::size_t parts = 64;
 
-struct Block {
+struct OpenFacets {
     std::vector<HashedFacet> open;                 ///< part by part
     std::array<std::uint32_t, parts + 1> begin{};  ///< where each begins
     std::vector<Place> degenerate;
@@ -156,7 +156,7 @@ struct Memory {
 };
 
 template <std::size_t d>
-void link_block(CellIndex& index, std::size_t first, std::size_t last, Memory<d>& memory, Block& block) {
+void link_block(CellIndex& index, std::size_t first, std::size_t last, Memory<d>& memory, OpenFacets& block) {
     CellRecord* const cells = index.cells.data();
     std::vector<std::int8_t>& orientation = memory.orientation;
     orientation.resize(last - first);
@@ -199,10 +199,10 @@ void link_block(CellIndex& index, std::size_t first, std::size_t last, Memory<d>
 
 /// The part of all blocks, in their order.
 template <std::size_t d>
-void link_part(CellIndex& index, const std::vector<Block>& blocks, std::size_t part, Memory<d>& memory) {
+void link_part(CellIndex& index, const std::vector<OpenFacets>& blocks, std::size_t part, Memory<d>& memory) {
     std::vector<HashedFacet>& open = memory.open;
     open.clear();
-    for (const Block& block : blocks) open.insert(open.end(), block.part(part).begin(), block.part(part).end());
+    for (const OpenFacets& block : blocks) open.insert(open.end(), block.part(part).begin(), block.part(part).end());
     memory.table.reset(open.size());
     constexpr std::size_t ahead = 16;
     for (std::size_t i = 0; i < open.size(); ++i) {
@@ -218,7 +218,7 @@ void link_part(CellIndex& index, const std::vector<Block>& blocks, std::size_t p
 template <std::size_t d>
 FacetLinks link(CellIndex& index) {
     const std::size_t cells = index.cell_count();
-    std::vector<Block> blocks((cells + block_size - 1) / block_size);
+    std::vector<OpenFacets> blocks((cells + block_size - 1) / block_size);
     tbb::enumerable_thread_specific<Memory<d>> memory;
     base::parallel_for(blocks.size(), [&](std::size_t b) {
         link_block<d>(index, b * block_size, std::min(cells, (b + 1) * block_size), memory.local(), blocks[b]);
@@ -226,7 +226,7 @@ FacetLinks link(CellIndex& index) {
     // Facets of one set of nodes are in one part, so no two threads write to the same entry of a cell.
     base::parallel_for(parts, [&](std::size_t p) { link_part<d>(index, blocks, p, memory.local()); });
     FacetLinks links;
-    for (const Block& block : blocks) {
+    for (const OpenFacets& block : blocks) {
         links.degenerate.insert(links.degenerate.end(), block.degenerate.begin(), block.degenerate.end());
         for (const HashedFacet& f : block.open) {
             if (index.cells[static_cast<std::size_t>(f.cell)].next[f.corner] < 0)

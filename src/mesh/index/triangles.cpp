@@ -3,17 +3,17 @@
 namespace barycert::index {
 namespace {
 
-constexpr std::size_t grain = 4096;
+constexpr std::size_t triangles_at_once = 4096;
 
 /// Nodes at one place have one bin, and so stand near each other.
 std::vector<Place> first_at_place(const CellIndex& index) {
     const std::size_t count = index.nodes.size();
     std::vector<Place> same(count);
     const auto bin = [&](std::size_t i) { return index.bins.of(index.nodes[i].at.data()); };
-    base::parallel_for((count + grain - 1) / grain, [&](std::size_t block) {
+    base::parallel_for((count + triangles_at_once - 1) / triangles_at_once, [&](std::size_t block) {
         // Runs that begin in the block.
-        std::size_t first = block * grain;
-        const std::size_t end = std::min(count, first + grain);
+        std::size_t first = block * triangles_at_once;
+        const std::size_t end = std::min(count, first + triangles_at_once);
         while (first != 0 && first < count && bin(first) == bin(first - 1)) ++first;
         std::vector<Place> run;
         while (first < end) {
@@ -42,7 +42,7 @@ Triangles place_triangles(std::span<const double> points, std::span<const Mesh::
     Triangles all;
     std::vector<std::uint8_t> flat(numbers.size());
     const auto at = [&](std::size_t corner) { return &points[3 * static_cast<std::size_t>(corners[corner])]; };
-    base::parallel_for_each(flat.size(), grain, [&](std::size_t i) {
+    base::parallel_for_each(flat.size(), triangles_at_once, [&](std::size_t i) {
         flat[i] = proper(3, {{}, {at(3 * i), at(3 * i + 1), at(3 * i + 2)}}) ? 0 : 1;
     });
     for (std::size_t i = 0; i < flat.size(); ++i) {
@@ -65,7 +65,7 @@ Triangles place_triangles(std::span<const double> points, std::span<const Mesh::
     all.facets.resize(count);
     all.odd.resize(count);
     if (of_flat == Flat::kept && !all.degenerate.empty()) all.flat.resize(count);
-    base::parallel_for_each(count, grain, [&](std::size_t i) {
+    base::parallel_for_each(count, triangles_at_once, [&](std::size_t i) {
         CellRecord& cell = all.index.cells[i];
         for (Place& node : cell.node) node = all.same[static_cast<std::size_t>(node)];
         PlacedFacet& f = all.facets[i];

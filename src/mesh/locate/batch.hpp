@@ -72,14 +72,14 @@ template <class Make, class Done>
 bool for_chunks(const LocatorData& data, const NodeRecord* nodes, std::span<const double> points,
                 LocationCounts& counts, Make make, Done done) {
     const std::size_t d = data.index.dimension(), count = points.size() / d;
-    data.prepare(count);
+    data.policy.prepare(count);
     const std::size_t block = block_of(count, data.index.cell_count()), blocks = (count + block - 1) / block;
     std::vector<LocationCounts> parts(blocks);
     std::atomic<bool> finite = true;
     base::parallel_for(blocks, [&](std::size_t b) {
         const std::size_t first = b * block, size = std::min(block, count - first);
         std::unique_ptr<SortedPoints> sorted = data.sorted.take();
-        if (!sorted->sort(data.index, data.occupancy(), points.subspan(d * first, d * size))) finite = false;
+        if (!sorted->sort(data.index, data.parts.occupancy(), points.subspan(d * first, d * size))) finite = false;
         Finder finder(data, nodes, size);
         auto worker = make(first, size);
         std::array<PointRecord, chunk_size> records;

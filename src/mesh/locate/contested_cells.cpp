@@ -1,7 +1,8 @@
-#include "mesh/locate/locator_data.hpp"
+#include "mesh/locate/contested_cells.hpp"
 
 #include "mesh/index/overlap.hpp"
 #include "mesh/locate/cell_signs.hpp"
+#include "mesh/locate/lanes.hpp"
 
 namespace barycert::locate {
 namespace {

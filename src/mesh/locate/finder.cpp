@@ -116,7 +116,7 @@ void Finder::ask_contested(const PointRecord* points, Place* owner, Feature* fea
         count += proof_->is_contested(arrived_.walks[i].cell) ? 1 : 0;
     }
     if (count == 0) return;
-    data_.contested_cells().find_owners(points, contested.data(), count, owner, feature, counts.tests);
+    data_.parts.contested_cells().find_owners(points, contested.data(), count, owner, feature, counts.tests);
     counts.ways.contested += count;
     counts.ways.walk -= count;  // find() adds all that walked
 }
@@ -133,7 +133,7 @@ void Finder::resolve(const PointRecord& point, Walk stuck, Place* owner, Feature
     }
     Place& first = owner[stuck.point] = stuck.cell;
     if (signs.region() != Region::interior) {
-        first = data_.node_cells().lowest_around(index, stuck.cell, signs);
+        first = data_.parts.node_cells().lowest_around(index, stuck.cell, signs);
         // Where whole cells do not meet face to face, a feature of one need not be one of the other.
         if (index.inside != nullptr) signs = cell_signs(index, first, point.at.data(), tests);
     }

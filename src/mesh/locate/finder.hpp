@@ -12,7 +12,7 @@ public:
     /// Walks read `nodes`, those of the index or a copy. `points`: about how many there will be.
     Finder(const LocatorData& data, const NodeRecord* nodes, std::size_t points)
         : data_(data),
-          proof_(data.proved() != nullptr ? &data.proved()->proof : nullptr),
+          proof_(data.parts.proved() != nullptr ? &data.parts.proved()->proof : nullptr),
           nodes_(nodes),
           fetch_(points < data.index.cell_count()) {}
 
@@ -57,7 +57,7 @@ private:
         constexpr std::size_t points_at_once = 16, enough = 4096;
         candidates_.clear();
         for (std::size_t i = 0; i < count; i += points_at_once) {
-            find_candidates(data_.index, data_.tree(), points, which + i, std::min(points_at_once, count - i),
+            find_candidates(data_.index, data_.parts.tree(), points, which + i, std::min(points_at_once, count - i),
                             candidates_);
             if (candidates_.size() < enough && i + points_at_once < count) continue;
             for (const Candidate& c : candidates_) {

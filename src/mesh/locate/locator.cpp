@@ -11,29 +11,15 @@ Result<Locator> Locator::build(const Mesh& mesh, const BuildOptions& options) {
     const char* const wrong = mesh.is_listed() ? mesh::inconsistency_of_cells(mesh, mesh::FieldValues::any)
                                                : mesh::inconsistency_of_axes(mesh);
     if (wrong != nullptr) return Error{.what = std::string("the mesh is inconsistent: ") + wrong};
-    auto data = std::make_unique<locate::LocatorData>();
-    data->mesh = &mesh;
-    if (!mesh.is_listed()) {
-        data->grid = std::make_unique<core::AxisGrid>(mesh.dimension, mesh.axes);
-        data->multilinear = options.interpolation == CellInterpolation::multilinear;
-    }
-    data->method = options.prove == Prove::never ? Method::candidates : Method::walk;
-    data->threads = options.threads;
-    constexpr std::size_t small = 100000;
-    const bool later = options.prove == Prove::when_it_pays && mesh.cell_count() <= small;
+    std::unique_ptr<locate::LocatorData> data;
     base::in_arena(options.threads, mesh.cell_count(), [&] {
         const auto stage = [&](const char* name) {
             if (!options.progress) return;
             options.progress(name);
             ExactEnvironment::renew();
         };
-        stage("ordering cells");
-        data->index = locate::make_cell_index(mesh);
-        const bool products = options.interpolation == CellInterpolation::multilinear;
-        if (data->grid == nullptr && (products || (options.curved != Curved::straight &&
-                                                   (!mesh.mid_nodes.empty() || !mesh.shapes.types.empty()))))
-            data->mapped = locate::MappedCells::make(mesh, data->index, products, options.curved);
-        if (!later) data->prove(stage);
+        data = std::make_unique<locate::LocatorData>(mesh, options, stage);
+        if (!locate::PreparationPolicy::proves_later(options.prove, mesh.cell_count())) data->parts.prove(stage);
     });
     return Locator(std::move(data));
 }
@@ -42,7 +28,8 @@ Location locate::LocatorData::settle(const double* point, Location in_parts) con
     if (!base::all_finite({point, index.dimension()})) return {};
     return mapped->owner(point, in_parts, [&](std::vector<Location>& all) {
         if (in_parts.cell < 0) return;
-        const bool alone = proved() != nullptr && proved()->proof.partition && in_parts.feature == Feature::interior;
+        const auto* const proved = parts.proved();
+        const bool alone = proved != nullptr && proved->proof.partition && in_parts.feature == Feature::interior;
         if (alone) return all.push_back(in_parts);
         PointRecord record{};
         std::copy_n(point, index.dimension(), record.at.begin());
@@ -64,22 +51,22 @@ const Mesh& Locator::mesh() const {
 }
 
 Method Locator::method() const {
-    return data_->method;
+    return data_->parts.method();
 }
 
 bool Locator::certified() const {
     const ExactEnvironment environment;
-    return data_->demand_proved().proof.partition;
+    return data_->parts.demand_proved().proof.partition;
 }
 
 std::uint64_t Locator::contested_cells() const {
     const ExactEnvironment environment;
-    return data_->demand_proved().proof.contested_count;
+    return data_->parts.demand_proved().proof.contested_count;
 }
 
 std::uint64_t Locator::degenerate_cells() const {
     const ExactEnvironment environment;
-    return data_->demand_proved().degenerate.size();
+    return data_->parts.demand_proved().degenerate.size();
 }
 
 CellInterpolation Locator::interpolation() const {
@@ -216,7 +203,7 @@ Result<Table> Locator::locate_all(std::span<const double> points, int threads, N
     const ExactEnvironment environment;
     if (data_->grid) return locate::not_listed("all cells of points");
     if (Status status = locate::check_size(points, data_->index.dimension()); !status) return status.error();
-    struct Found {
+    struct OwnerOfPoint {
         std::size_t point;
         Location location;
     };
@@ -227,15 +214,15 @@ Result<Table> Locator::locate_all(std::span<const double> points, int threads, N
     const std::size_t blocks = (count + block - 1) / block;
     std::vector<Table> parts(blocks);
     base::in_arena(threads, data_->index.cell_count() + count, [&] {
-        data_->prepare(count);
+        data_->policy.prepare(count);
         base::parallel_for(blocks, [&](std::size_t b) {
             const std::size_t first = b * block, size = std::min(block, count - first);
             locate::SortedPoints sorted;
-            sorted.sort(data_->index, data_->occupancy(), points.subspan(d * first, d * size));
+            sorted.sort(data_->index, data_->parts.occupancy(), points.subspan(d * first, d * size));
             locate::Finder finder(*data_, data_->index.nodes.data(), size);
             Table& part = parts[b];
             LocationCounts& counts = part.counts.locations;
-            std::vector<Found> found;
+            std::vector<OwnerOfPoint> found;
             std::array<locate::PointRecord, locate::chunk_size> records;
             for (std::size_t at = 0; at < sorted.size(); at += locate::chunk_size) {
                 const std::size_t n = std::min(locate::chunk_size, sorted.size() - at);
@@ -245,8 +232,8 @@ Result<Table> Locator::locate_all(std::span<const double> points, int threads, N
                 });
             }
             counts.ways.no_cell_near += sorted.left_out();
-            std::ranges::sort(found, {}, [](const Found& f) { return std::pair(f.point, f.location.cell); });
-            const auto same = [&](const Found& f, const Found& g) {  // parts of one cell
+            std::ranges::sort(found, {}, [](const OwnerOfPoint& f) { return std::pair(f.point, f.location.cell); });
+            const auto same = [&](const OwnerOfPoint& f, const OwnerOfPoint& g) {  // parts of one cell
                 return f.point == g.point && mesh().cell_number(f.location.cell) == mesh().cell_number(g.location.cell);
             };
             found.erase(std::unique(found.begin(), found.end(), same), found.end());

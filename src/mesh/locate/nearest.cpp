@@ -199,7 +199,7 @@ Nearest find_nearest_of(const CellIndex& index, std::span<const std::uint32_t> p
 
 Nearest find_nearest(const LocatorData& data, const double* point, double limit, NearestWork* work) {
     if (data.index.cell_count() == 0) return {.distance = infinity};
-    return find_nearest(data.index, data.nearest_tree(), point, limit, work, data.mapped.get());
+    return find_nearest(data.index, data.parts.nearest_tree(), point, limit, work, data.mapped.get());
 }
 
 }  // namespace locate

@@ -45,7 +45,15 @@ struct End {
 };
 
 /// Where the last walk of this thread ended. A particle's next hint is that cell, and to look its place up would wait
-/// for memory. What is kept of a locator that is gone does no harm: a walk may start at any place that there is.
+/// for memory.
+///
+/// It cannot change an answer, only how long that takes. A walk starts there, and any place that the index has is a
+/// start (so what is kept of a locator that is gone, at whose address there is another now, does no harm). A walk ends
+/// - at a cell that certainly holds the point in its interior: if the cell is not contested, no other holds the point
+///   (doc/theorem.md), so all walks that end like this end there; if it is, find_owners() takes the lowest of all that
+///   hold the point;
+/// - or without an answer, and Finder::settle() decides by exact signs of cells, whatever cell it is told to begin
+/// with.
 struct LastEnd {
     const LocatorData* data = nullptr;
     Mesh::Index cell = -1;
@@ -68,7 +76,7 @@ From start_of(const LocatorData& data, const double* p, Mesh::Index hint) {
     // Both are asked of memory at the same time. Cells that are far apart in the order of the curve may be neighbours:
     // then the bin's start is a little farther than the hint.
     constexpr Place near = 40;
-    const Place place = data.places()[static_cast<std::size_t>(hint)], start = index.start[index.bins.of(p)];
+    const Place place = data.parts.places()[static_cast<std::size_t>(hint)], start = index.start[index.bins.of(p)];
     return std::abs(place - start) <= near ? From{place, true} : From{start, false};
 }
 
@@ -131,15 +139,15 @@ Result<Location> Locator::locate(const double* point, Mesh::Index hint) const {
         return data.mapped ? data.settle(point, found) : found;
     };
     if (!index.box_holds(point)) return location(-1, Feature::outside);
-    const locate::Occupancy* const occupancy = data.occupancy();
+    const locate::Occupancy* const occupancy = data.parts.occupancy();
     const auto no_cell_is_near = [&] { return occupancy != nullptr && !occupancy->may_hold(index, point); };
     // Who has no hint may be outside, and then a walk would be in vain.
     if (hint < 0 && no_cell_is_near()) return location(-1, Feature::outside);
     locate::PointRecord record{};
     for (std::size_t k = 0; k < d; ++k) record.at[k] = point[k];
     locate::Place stuck = -1;
-    data.prove_for(1);
-    if (const auto* const proved = data.proved()) {
+    data.policy.prove_for(1);
+    if (const auto* const proved = data.parts.proved()) {
         const locate::End end = d == 2 ? locate::walk_and_note<Simplex::triangle>(data, point, hint)
                                        : locate::walk_and_note<Simplex::tetrahedron>(data, point, hint);
         if (end.inside && !proved->proof.is_contested(end.cell)) return location(end.cell, Feature::interior);
@@ -148,8 +156,8 @@ Result<Location> Locator::locate(const double* point, Mesh::Index hint) const {
             Feature on = Feature::interior;
             TierCounts tests;
             constexpr std::uint32_t which = 0;
-            data.contested_cells().prepare_for_one_more();
-            data.contested_cells().find_owners(&record, &which, 1, &lowest, &on, tests);
+            data.policy.found_contested();
+            data.parts.contested_cells().find_owners(&record, &which, 1, &lowest, &on, tests);
             return location(lowest, on);
         }
         stuck = end.outside ? ~end.cell : end.cell;
@@ -159,7 +167,7 @@ Result<Location> Locator::locate(const double* point, Mesh::Index hint) const {
     locate::Place owner = -1;
     Feature feature = Feature::outside;
     finder.settle(record, stuck, owner, feature);
-    if (owner < 0 && occupancy == nullptr) data.found_outside();
+    if (owner < 0 && occupancy == nullptr) data.policy.found_outside();
     return location(owner, feature);
 }
 

@@ -1,4 +1,6 @@
-#include "mesh/locate/locator_data.hpp"
+#include "mesh/locate/sorted_points.hpp"
+
+#include <numeric>
 
 namespace barycert::locate {
 

@@ -39,7 +39,7 @@ Box Distribution::box_at(std::size_t point) const {
 }
 
 Status Distribution::gather() {
-    Part mine;
+    RankBoxes mine;
     Status read = exchange_.everywhere([&] {
         mine.cell_count = static_cast<double>(piece_.mesh.cell_count());
         mine.point_count = static_cast<double>(points_.count);

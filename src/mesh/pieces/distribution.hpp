@@ -49,11 +49,11 @@ public:
 
 private:
     using Owner = std::pair<std::int64_t, int>;  ///< number and rank
-    struct Part {
+    struct RankBoxes {
         Box cells = empty_box, points = empty_box;
         double cell_count = 0, point_count = 0;
     };
-    const Part& of(int rank) const { return parts_[static_cast<std::size_t>(rank)]; }
+    const RankBoxes& of(int rank) const { return parts_[static_cast<std::size_t>(rank)]; }
     bool asks(int who, int whom) const { return who != whom && of(who).points.meets(of(whom).cells); }
     bool asks_much(int who, int whom) const;
     /// The box of one of this rank's points.
@@ -67,7 +67,7 @@ private:
     Exchange& exchange_;
     const Piece& piece_;
     Points points_;
-    std::vector<Part> parts_;  ///< of each rank
+    std::vector<RankBoxes> parts_;  ///< of each rank
     int ranks_with_cells_ = 0;
     std::int64_t cells_before_ = 0;  ///< of ranks below this one
     Parcels<Box> fine_boxes_;

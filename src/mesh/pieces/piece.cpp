@@ -7,6 +7,7 @@
 #include "core/isoparametric/inverse.hpp"
 #include "mesh/locate/locator_data.hpp"
 #include "mesh/locate/mapped/nearest_side.hpp"
+#include "mesh/pulling.hpp"
 #include "mesh/sample/points/near_piece.hpp"
 
 namespace barycert::pieces {
@@ -220,8 +221,9 @@ bool IndexedPiece::straight(Mesh::Index cell) const {
 Mesh::Index IndexedPiece::owner(const double* x) const {
     std::array<double, 3> point{};
     if (!locator || !all_finite({x, 3}) || !project(x, point.data())) return -1;
-    // Where points come one near the other, the last cell saves most of the search; elsewhere it lengthens it. The
-    // answer does not depend on it.
+    // Where points come one near the other, the last cell saves most of the search; elsewhere it lengthens it. It
+    // cannot change the answer: it is a hint to Locator::locate(), which finds the same cell with any hint or none, one
+    // of a piece that is gone included.
     struct Last {
         const IndexedPiece* piece = nullptr;
         std::array<double, 3> point{};

@@ -7,6 +7,7 @@
 #include "mesh/facets/facet_triangles.hpp"
 #include "mesh/index/box_tree.hpp"
 #include "mesh/pieces/exchange.hpp"
+#include "mesh/pulling.hpp"  // IWYU pragma: export: bindings tell which cells cannot be cut
 
 namespace barycert::pieces {
 

@@ -20,7 +20,7 @@ using core::Integer;
 using core::Unit;
 
 /// An edge with an end `in` of the set and an end `out` outside.
-struct Edge {
+struct CrossedEdge {
     Mesh::Index in = 0, out = 0;
 };
 
@@ -55,14 +55,14 @@ public:
 
     /// Arrays that lanes need besides the numbers to interpolate.
     static constexpr std::size_t arrays = 2;
-    void gather(const Edge& edge, std::size_t j, double* const* to) const {
+    void gather(const CrossedEdge& edge, std::size_t j, double* const* to) const {
         to[0][j] = at(edge.in);
         to[1][j] = at(edge.out);
     }
     std::size_t lanes(const double* const* own, const EdgeBlock& edges, double* out, std::uint32_t* undecided) const {
         return level_lanes(value_, own, edges, out, undecided);
     }
-    ExactCrossing exact(const Edge& edge) const {
+    ExactCrossing exact(const CrossedEdge& edge) const {
         const Unit unit{at(edge.in), at(edge.out), value_};
         const Integer level = unit.integer(value_);
         return {unit.integer(at(edge.in)) - level, level - unit.integer(at(edge.out))};
@@ -100,11 +100,11 @@ public:
     }
 
     static constexpr std::size_t arrays = 0;
-    void gather(const Edge&, std::size_t, double* const*) const {}
+    void gather(const CrossedEdge&, std::size_t, double* const*) const {}
     std::size_t lanes(const double* const*, const EdgeBlock& edges, double* out, std::uint32_t* undecided) const {
         return plane_lanes(plane_, edges, out, undecided);
     }
-    ExactCrossing exact(const Edge& edge) const {
+    ExactCrossing exact(const CrossedEdge& edge) const {
         const double* const in = points_ + 3 * static_cast<std::size_t>(edge.in);
         const double* const out = points_ + 3 * static_cast<std::size_t>(edge.out);
         const Unit of_points{1, in[0], in[1], in[2], out[0], out[1], out[2]};
@@ -160,7 +160,7 @@ public:
     void place(std::size_t first, std::size_t last, TierCounts& tiers) {
         std::size_t size = 0;
         for (std::size_t v = first; v < last; ++v) {
-            const Edge edge{surface_.mesh_edges[2 * v], surface_.mesh_edges[2 * v + 1]};
+            const CrossedEdge edge{surface_.mesh_edges[2 * v], surface_.mesh_edges[2 * v + 1]};
             if (edge.in == edge.out) {
                 for (const Carried& c : carried_)
                     c.to[c.stride * v] = c.at(edge.in) + 0.0;  // an exact zero is positive
@@ -207,7 +207,7 @@ private:
     const std::vector<Carried>& carried_;
     core::LaneArrays arrays_{Level::arrays + 2 * carried_.size()};
     std::vector<double> out_;
-    std::array<Edge, core::block_size> edge_{};
+    std::array<CrossedEdge, core::block_size> edge_{};
     std::array<std::size_t, core::block_size> point_{};
     std::array<std::uint32_t, core::block_size> undecided_{};
 };

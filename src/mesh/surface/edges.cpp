@@ -20,7 +20,7 @@ std::vector<std::int32_t> outline_of(const Surface& boundary) {
     };
     constexpr double bend = 0.866;  // cosine of 30 degrees
     std::vector<std::int32_t> segments;
-    for_edges(boundary, [&](std::span<const Edge> edge) {
+    for_edges(boundary, [&](std::span<const TriangleEdge> edge) {
         if (edge.size() != 2 || base::dot(normal(edge[0].second), normal(edge[1].second)) <= bend)
             segments.insert(segments.end(), {edge[0].first.first, edge[0].first.second});
     });
@@ -45,7 +45,7 @@ Surface facets_of(const Mesh& mesh) {
 }
 
 Surface facets_of(const Mesh& mesh, std::vector<Mesh::Index> cells) {
-    const mesh::Part part = mesh::part_of(mesh, std::move(cells));
+    const mesh::Submesh part = mesh::part_of(mesh, std::move(cells));
     Surface out = facets_of(part.mesh);
     for (Mesh::Index& node : out.mesh_edges) node = part.nodes[static_cast<std::size_t>(node)];
     for (Mesh::Index& cell : out.mesh_cells) cell = part.cells[static_cast<std::size_t>(cell)];

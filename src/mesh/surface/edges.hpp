@@ -8,12 +8,12 @@
 namespace barycert::surface {
 
 /// An edge of triangles, by its points, and one of them.
-using Edge = std::pair<std::pair<std::int32_t, std::int32_t>, std::int32_t>;
+using TriangleEdge = std::pair<std::pair<std::int32_t, std::int32_t>, std::int32_t>;
 
 /// f(edges): for each edge all that it is of triangles.
 template <class F>
 void for_edges(const Surface& surface, F f) {
-    std::vector<Edge> all;
+    std::vector<TriangleEdge> all;
     all.reserve(surface.cells.size());
     for (std::size_t t = 0; t < surface.cell_count(); ++t) {
         for (std::size_t c = 0; c < 3; ++c)
@@ -23,7 +23,7 @@ void for_edges(const Surface& surface, F f) {
     std::ranges::sort(all);
     for (std::size_t i = 0, first = 0; i < all.size(); first = i) {
         while (i < all.size() && all[i].first == all[first].first) ++i;
-        f(std::span<const Edge>(all).subspan(first, i - first));
+        f(std::span<const TriangleEdge>(all).subspan(first, i - first));
     }
 }
 

@@ -24,7 +24,7 @@ struct CutCell {
 
 /// Cells that one task looks at, in their order: the work does not depend on threads.
 template <std::size_t n>
-struct Block {
+struct CutCells {
     std::vector<CutCell<n>> cells;
     std::uint64_t not_finite = 0, degenerate = 0;
     std::size_t first_part = 0;  ///< of the surface
@@ -179,7 +179,7 @@ private:
         std::atomic<bool> good{true};
         blocks_.resize((count + block_size - 1) / block_size);
         base::parallel_for(blocks_.size(), [&](std::size_t b) {
-            Block<n>& block = blocks_[b];
+            CutCells<n>& block = blocks_[b];
             const std::size_t begin = b * block_size, size = std::min(count - begin, block_size);
             const Index* const first = mesh_.cells.data() + n * begin;
             std::array<std::uint32_t, block_size> mixed;
@@ -227,13 +227,13 @@ private:
 
     void orient_flat_cells() {
         std::vector<Index> flat;
-        for (const Block<n>& block : blocks_) {
+        for (const CutCells<n>& block : blocks_) {
             for (const CutCell<n>& c : block.cells)
                 if (c.sign == 0) flat.push_back(c.cell);
         }
         if (flat.empty()) return;
         const std::vector<std::int8_t> signs = flat_signs(mesh_, flat);
-        for (Block<n>& block : blocks_) {
+        for (CutCells<n>& block : blocks_) {
             for (CutCell<n>& c : block.cells)
                 if (c.sign == 0) c.sign = signs[static_cast<std::size_t>(c.cell)];
             std::erase_if(block.cells, [](const CutCell<n>& c) { return c.sign == 0; });
@@ -241,7 +241,7 @@ private:
     }
 
     void count_parts() {
-        for (Block<n>& block : blocks_) {
+        for (CutCells<n>& block : blocks_) {
             block.first_part = part_count_;
             for (const CutCell<n>& c : block.cells) part_count_ += case_of(c).part_count;
         }
@@ -358,7 +358,7 @@ private:
         for_cut_cells([&](std::size_t node) { __builtin_prefetch(&first_[node]); },
                       [&](std::size_t node) { __builtin_prefetch(&end_[first_[node]]); },
                       [&](const CutCell<n>& c, std::size_t part) { write_parts_of(c, part, surface); });
-        for (const Block<n>& block : blocks_) {
+        for (const CutCells<n>& block : blocks_) {
             counts.cells += block.cells.size();
             counts.not_finite += block.not_finite;
             counts.degenerate += block.degenerate;
@@ -368,7 +368,7 @@ private:
     const Mesh& mesh_;
     const States& states_;
     bool ends_;
-    std::vector<Block<n>> blocks_;
+    std::vector<CutCells<n>> blocks_;
     std::size_t part_count_ = 0;
     std::vector<std::size_t> begin_, first_;  ///< of each node, and the end of all
     std::vector<Index> high_, end_;

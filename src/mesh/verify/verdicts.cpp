@@ -69,7 +69,7 @@ private:
             return !held || std::ranges::none_of(held->cells, is_claimed);
         }
         for (std::int64_t part = claimed; part < cells && is_claimed(part); ++part) {
-            const locate::Place place = data.places()[static_cast<std::size_t>(part)];
+            const locate::Place place = data.parts.places()[static_cast<std::size_t>(part)];
             if (locate::cell_signs(data.index, place, at.data(), tests_).contains()) return false;
         }
         return true;

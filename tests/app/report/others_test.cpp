@@ -156,11 +156,11 @@ TEST(Others, OnThePageAsTablesThatSort) {
             list.push_back(std::stod((*it)[1]));
         return list;
     };
-    for (const FlagsMatrix::Row& row : m.rows) {
+    for (const FlagsMatrix::KernelAnswers& row : m.rows) {
         std::vector<double> changed, wrong;
         for (std::size_t c = 0; c < m.columns.size(); ++c) {
             bool any = false;
-            for (const FlagsMatrix::Row& other : m.rows) any = any || other.cells[c].changed != 0;
+            for (const FlagsMatrix::KernelAnswers& other : m.rows) any = any || other.cells[c].changed != 0;
             if (!any) continue;
             const auto cases = static_cast<double>(row.cells[c].cases);
             changed.push_back(static_cast<double>(row.cells[c].changed) / cases);

@@ -167,7 +167,7 @@ BARYCERT_FUZZ_TARGET(meshes, {std::size_t{32} << 20, 256}) {
            "check and locator differ on degenerate cells");
     // So few points are located without the table of bins that are empty: for one input in eight it is made, where it
     // can be.
-    if (hint % 8 == 7) locate::LocatorData::of(*locator).prepare(1'000'000);
+    if (hint % 8 == 7) locate::LocatorData::of(*locator).policy.prepare(1'000'000);
     const Table all = located(*locator, *plain, drawn.points, hint / 8);
 
     const Result<std::vector<FieldChoice>> fields = choose_fields(mesh, {});

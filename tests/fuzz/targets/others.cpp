@@ -10,7 +10,7 @@ BARYCERT_FUZZ_TARGET(others) {
     const Result<OtherResults> results = read_other_results(file.put(input));
     if (!results) return expect_useful(results.error(), lines_of(input));
     if (const auto* const matrix = std::get_if<FlagsMatrix>(&*results)) {
-        for (const FlagsMatrix::Row& row : matrix->rows)
+        for (const FlagsMatrix::KernelAnswers& row : matrix->rows)
             expect(row.cells.size() == matrix->columns.size(), "a row that does not fit the columns was read");
     }
 }

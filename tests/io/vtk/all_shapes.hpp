@@ -68,7 +68,7 @@ inline Mesh all_solids() {
         {{a, d, c, b}, {a, b, ridge}, {c, d, ridge + 1}, {b, c, ridge + 1, ridge}, {d, a, ridge, ridge + 1}});
     Rings rings;
     nodes = add_beside(mesh, 16);
-    const std::string faces(mesh::shape_of(16).faces);
+    const std::string faces(mesh::cell_type(16).faces);
     std::vector<Mesh::Index> ring;
     for (const char place : faces + ' ') {
         if (place == ' ') {

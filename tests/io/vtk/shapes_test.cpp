@@ -91,7 +91,7 @@ TEST(VtkShapes, HigherOrdersAreTakenByTheirCorners) {
         ASSERT_TRUE(read) << read.error().message();
         EXPECT_EQ(read->dimension, flat ? 2 : 3);
         EXPECT_EQ(read->shapes.types, Types{linear});
-        const std::size_t corners = linear == 7 ? nodes / 2 : mesh::shape_of(linear).corners;
+        const std::size_t corners = linear == 7 ? nodes / 2 : mesh::cell_type(linear).corners;
         Nodes expected(corners);
         std::iota(expected.begin(), expected.end(), 0);
         if (type == 73 || type == 80) expected = {0, 2, 1, 3, 5, 4};  // seen from the other side: vtkLagrangeWedge.h

@@ -11,6 +11,7 @@
 #include "barycert/surface_report.hpp"
 #include "barycert/plc.hpp"
 #include "barycert/surface.hpp"
+#include "mesh/pulling.hpp"
 #include "tests/mesh/shaped_mesh.hpp"
 
 namespace barycert::testing {

@@ -55,7 +55,8 @@ std::size_t expect_proved(const Mesh& mesh, const std::string& what, std::size_t
     std::size_t proved = 0;
     for (std::size_t p = 0; p < mesh.cell_count(); ++p) {
         const Mesh::Index a = data.index.original[p];
-        if (data.proved()->proof.is_contested(static_cast<Place>(p)) || degenerate(mesh, static_cast<std::size_t>(a)))
+        if (data.parts.proved()->proof.is_contested(static_cast<Place>(p)) ||
+            degenerate(mesh, static_cast<std::size_t>(a)))
             continue;
         if (proved++ % step != 0) continue;
         for (std::size_t b = 0; b < mesh.cell_count(); ++b) {
@@ -249,7 +250,7 @@ TEST(IndexProof, D1TheIndexHasTheSameBytesForAnyNumberOfThreads) {
                 << threads;
             EXPECT_TRUE(same_bytes(a.index.start, b.index.start));
             EXPECT_EQ(a.index.original_node, b.index.original_node);
-            EXPECT_EQ(a.proved()->proof.contested, b.proved()->proof.contested);
+            EXPECT_EQ(a.parts.proved()->proof.contested, b.parts.proved()->proof.contested);
         }
     }
 }

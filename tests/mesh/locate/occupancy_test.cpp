@@ -145,15 +145,17 @@ TEST(LocateOccupancy, MostOfTheBoxOfAThinCellIsEmpty) {
     base::Random random(13);
     const auto locator = Locator::build(mesh, {.prove = Prove::never});
     ASSERT_TRUE(locator);
-    locate::LocatorData::of(*locator).prepare(1'000'000);
-    ASSERT_NE(locate::LocatorData::of(*locator).occupancy(), nullptr);
+    locate::LocatorData::of(*locator).policy.prepare(1'000'000);
+    ASSERT_NE(locate::LocatorData::of(*locator).parts.occupancy(), nullptr);
     std::size_t kept = 0;
     constexpr std::size_t count = 10000;
     for (std::size_t i = 0; i < count; ++i) {
         const double x = random.unit(), y = random.unit(), z = random.unit();
         const double p[] = {x, y, z};
         kept +=
-            locate::LocatorData::of(*locator).occupancy()->may_hold(locate::LocatorData::of(*locator).index, p) ? 1 : 0;
+            locate::LocatorData::of(*locator).parts.occupancy()->may_hold(locate::LocatorData::of(*locator).index, p)
+                ? 1
+                : 0;
     }
     EXPECT_GT(kept, 0U);
     EXPECT_LT(kept, count / 8);
@@ -164,8 +166,8 @@ TEST(LocateOccupancy, NoRoom) {
     for (const int d : {2, 3}) {
         const Mesh full = box(d, {3, 3, 3});
         const auto locator = Locator::build(full);
-        locate::LocatorData::of(*locator).prepare(1'000'000);
-        EXPECT_EQ(locate::LocatorData::of(*locator).occupancy(), nullptr);
+        locate::LocatorData::of(*locator).policy.prepare(1'000'000);
+        EXPECT_EQ(locate::LocatorData::of(*locator).parts.occupancy(), nullptr);
         Mesh flat = full;
         for (std::size_t i = 0; i < flat.points.size(); i += static_cast<std::size_t>(d)) flat.points[i] = 3;
         EXPECT_GE(locate::filled_share(locate::LocatorData::of(*Locator::build(flat, {.prove = Prove::never})).index),
@@ -181,10 +183,10 @@ TEST(LocateOccupancy, L1L2L3EveryWay) {
             Mesh mesh = n % 2 == 0 ? grown_complex(d, random) : damaged_box(d, random);
             if (mesh.cell_count() == 0) continue;
             const auto locator = Locator::build(mesh, {.prove = Prove::never});
-            locate::LocatorData::of(*locator).prepare(1'000'000);
-            if (locate::LocatorData::of(*locator).occupancy() == nullptr) continue;
+            locate::LocatorData::of(*locator).policy.prepare(1'000'000);
+            if (locate::LocatorData::of(*locator).parts.occupancy() == nullptr) continue;
             std::vector<double> points = edge_points(mesh, locate::LocatorData::of(*locator).index,
-                                                     *locate::LocatorData::of(*locator).occupancy(), 200, random);
+                                                     *locate::LocatorData::of(*locator).parts.occupancy(), 200, random);
             const std::vector<double> more = awkward_points(mesh, 10, random);
             points.insert(points.end(), more.begin(), more.end());
             ASSERT_GE(points.size() / static_cast<std::size_t>(d), mesh.cell_count());

@@ -98,7 +98,7 @@ private:
 
     void add(std::uint8_t type, const std::vector<Index>& nodes, bool polyhedron = false) {
         std::vector<std::vector<Index>> rings(1);
-        for (const char c : mesh::shape_of(type).faces) {
+        for (const char c : mesh::cell_type(type).faces) {
             if (c == ' ') {
                 rings.emplace_back();
             } else {
@@ -126,7 +126,7 @@ private:
         }
         judges.push_back(judge);
         if (mesh.shapes.face_ends.empty() && polyhedron) mesh.shapes.face_ends.resize(mesh.shapes.count());
-        add_shape(mesh, polyhedron ? std::uint8_t{mesh::vtk_polyhedron} : type, nodes,
+        add_shape(mesh, polyhedron ? std::uint8_t{vtk_polyhedron} : type, nodes,
                   polyhedron ? rings : std::vector<std::vector<Index>>());
     }
 

@@ -20,7 +20,7 @@ struct FlagsMatrix {
     struct Cell {
         std::uint64_t cases = 0, changed = 0, wrong = 0, newly_wrong = 0, newly_right = 0;
     };
-    struct Row {
+    struct KernelAnswers {
         std::string kernel;
         std::vector<Cell> cells;  ///< one a column
     };
@@ -28,7 +28,7 @@ struct FlagsMatrix {
     std::size_t families = 0;
     std::vector<std::string> compilers;  ///< by name and version
     std::vector<Column> columns;
-    std::vector<Row> rows;
+    std::vector<KernelAnswers> rows;
 };
 
 /// What systems answered to points, held against the exact owners and values.

@@ -319,6 +319,7 @@ Document audit_document(const AuditReport& r, const TerminalStyle& style, const 
     d.footer = "barycert " + r.environment.version;
     d.style = audit_style;
     d.script = true;
+    d.data = audit_data(r);
     // Kernels know corners alone: what rounding has left of middles is in the JSON.
     for (std::size_t i = 0; i < r.curved.size(); ++i) {
         if (r.curved[i].cells != 0 || r.curved[i].by_corners != 0) d.curved(r.curved[i], r.meshes[i]);
@@ -350,16 +351,18 @@ Document audit_document(const AuditReport& r, const TerminalStyle& style, const 
 }  // namespace
 
 std::string audit_text(const AuditReport& report, const TerminalStyle& style) {
-    const ExactEnvironment environment;
-    return terminal_text(audit_document(report, style, {}), style.colour);
+    return written_text([&] { return audit_document(report, style, {}); }, style.colour);
+}
+
+std::string audit_json(const AuditReport& report) {
+    return written_json([&] { return audit_document(report, {}, {}); }, 1);
 }
 
 Result<std::string> audit_html(const AuditReport& report, const AuditPage& page) {
-    const ExactEnvironment environment;
     TerminalStyle style = page.style;
     style.wide = false;
     try {
-        return page_text(audit_document(report, style, page));
+        return written_page([&] { return audit_document(report, style, page); });
     } catch (const Exception& e) {
         return e.error();
     }

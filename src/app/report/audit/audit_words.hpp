@@ -69,6 +69,12 @@ std::string oracle_line(const OracleCounts& o);
 /// What other programs measured, for a page: the flags matrix, the league of systems.
 void tell_others(Document& d, const std::vector<OtherResults>& others);
 
+// What programs read.
+
+Json kernel_json(const Kernel& kernel);
+Json family_json(const Family& family);
+Json audit_data(const AuditReport& report);
+
 inline Json oracles_json(OracleChoice choice, const OracleCounts& o) {
     // With a disagreement there is no report.
     return record("choice", choice, MEMBERS(o, core, integers, wide, cgal, also_integers, also_cgal), "disagreements",

@@ -184,8 +184,28 @@ Document texels_document(const std::vector<TexelResult>& results) {
 
 }  // namespace
 
-AUDIT_TEXT_AND_JSON(gaps, GapsReport)
-AUDIT_TEXT_AND_JSON(drift, DriftReport)
-AUDIT_TEXT_AND_JSON(texels, std::vector<TexelResult>)
+std::string gaps_text(const GapsReport& report, const TerminalStyle& style) {
+    return written_text([&] { return gaps_document(report); }, style.colour);
+}
+
+std::string gaps_json(const GapsReport& report) {
+    return written_json([&] { return gaps_document(report); }, 1);
+}
+
+std::string drift_text(const DriftReport& report, const TerminalStyle& style) {
+    return written_text([&] { return drift_document(report); }, style.colour);
+}
+
+std::string drift_json(const DriftReport& report) {
+    return written_json([&] { return drift_document(report); }, 1);
+}
+
+std::string texels_text(const std::vector<TexelResult>& results, const TerminalStyle& style) {
+    return written_text([&] { return texels_document(results); }, style.colour);
+}
+
+std::string texels_json(const std::vector<TexelResult>& results) {
+    return written_json([&] { return texels_document(results); }, 1);
+}
 
 }  // namespace barycert

@@ -63,7 +63,7 @@ FlagsMatrix flags_from(const OthersJson& all) {
     const OthersJson& rows = list_in(all, "rows", top);
     expect_at_most(max_cells, rows.size() * m.columns.size(), top, " cells");
     for (const OthersJson& j : rows) {
-        FlagsMatrix::Row row{text_in(j, "kernel", "row " + std::to_string(m.rows.size())), {}};
+        FlagsMatrix::KernelAnswers row{text_in(j, "kernel", "row " + std::to_string(m.rows.size())), {}};
         const OthersJson& cells = list_in(j, "cells", row.kernel);
         if (cells.size() != m.columns.size())
             refuse(row.kernel, std::to_string(m.columns.size()) + " cells, one a column", std::to_string(cells.size()));
@@ -151,7 +151,7 @@ void tell_matrix(Document& d, const FlagsMatrix& m, std::string heading, std::ui
     const std::vector<std::size_t> columns = columns_of(m, true);
     for (const std::size_t c : columns)
         table.columns.push_back({.head = name_of(m.columns[c]), .tip = m.columns[c].flags});
-    for (const FlagsMatrix::Row& row : m.rows) {
+    for (const FlagsMatrix::KernelAnswers& row : m.rows) {
         Row& shares = table.rows.emplace_back(Row{{row.kernel}});
         for (const std::size_t c : columns)
             shares.cells.push_back(share_cell({row.cells[c].*part, row.cells[c].cases}, red));

@@ -198,17 +198,28 @@ Document inverses_document(const InverseAudit& audit) {
 
 }  // namespace
 
-AUDIT_TEXT_AND_JSON(surfaces, SurfaceAudit)
-AUDIT_TEXT_AND_JSON(inverses, InverseAudit)
+std::string surfaces_text(const SurfaceAudit& audit, const TerminalStyle& style) {
+    return written_text([&] { return surfaces_document(audit); }, style.colour);
+}
+
+std::string surfaces_json(const SurfaceAudit& audit) {
+    return written_json([&] { return surfaces_document(audit); }, 1);
+}
 
 std::string surfaces_html(const SurfaceAudit& audit) {
-    const ExactEnvironment environment;
-    return page_text(surfaces_document(audit));
+    return written_page([&] { return surfaces_document(audit); });
+}
+
+std::string inverses_text(const InverseAudit& audit, const TerminalStyle& style) {
+    return written_text([&] { return inverses_document(audit); }, style.colour);
+}
+
+std::string inverses_json(const InverseAudit& audit) {
+    return written_json([&] { return inverses_document(audit); }, 1);
 }
 
 std::string inverses_html(const InverseAudit& audit) {
-    const ExactEnvironment environment;
-    return page_text(inverses_document(audit));
+    return written_page([&] { return inverses_document(audit); });
 }
 
 }  // namespace barycert

@@ -144,15 +144,19 @@ Document mutants_document(const MutantReport& r) {
 }  // namespace
 
 std::string search_text(const SearchReport& report, const TerminalStyle& style) {
-    const ExactEnvironment environment;
-    return terminal_text(search_document(report, style), style.colour);
+    return written_text([&] { return search_document(report, style); }, style.colour);
 }
 
 std::string search_json(const SearchReport& report) {
-    const ExactEnvironment environment;
-    return base::json_text(search_document(report, {}).data, 1);
+    return written_json([&] { return search_document(report, {}); }, 1);
 }
 
-AUDIT_TEXT_AND_JSON(mutants, MutantReport)
+std::string mutants_text(const MutantReport& report, const TerminalStyle& style) {
+    return written_text([&] { return mutants_document(report); }, style.colour);
+}
+
+std::string mutants_json(const MutantReport& report) {
+    return written_json([&] { return mutants_document(report); }, 1);
+}
 
 }  // namespace barycert

@@ -116,32 +116,4 @@ std::string witness_text(const Replay& replay, const TerminalStyle& style, bool 
     return terminal_text(d, style.colour);
 }
 
-std::string kernels_text(const std::vector<Kernel>& kernels) {
-    Document d;
-    for (const Kernel& k : kernels) {
-        std::string promises = k.certifies ? "certifies every answer" : "no certificate";
-        promises += k.declares_degenerate ? "; declares degenerate simplices" : "; never declares a simplex degenerate";
-        if (k.rule == RegionRule::tolerant) promises += fmt::format("; inside if every weight >= -{}", k.tolerance);
-        if (k.rule == RegionRule::own) promises += "; inside by a rule of its own";
-        d.add(Item{.text = k.name,
-                   .lines = {{"formula  " + k.formula},
-                             {"source   " + k.source},
-                             {"fails    " + k.fails},
-                             {"promise  " + promises}}});
-    }
-    return terminal_text(d, false);
-}
-
-std::string families_text(const std::vector<Family>& families) {
-    Document d;
-    for (const Family& f : families) {
-        std::string simplices = joined(f.simplices, ", ", [](Simplex simplex) { return name(simplex); });
-        if (f.needs_mesh) simplices += " of a mesh";
-        if (f.perspective) simplices += " with a depth at each vertex";
-        d.add(Item{.text = f.name,
-                   .lines = {{"tests    " + f.tests}, {"recipe   " + f.parameters}, {"for      " + simplices}}});
-    }
-    return terminal_text(d, false);
-}
-
 }  // namespace barycert

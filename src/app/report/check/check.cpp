@@ -1,5 +1,6 @@
 // What a check of a mesh found, for people.
 
+#include "app/report/check/check_data.hpp"
 #include "app/report/check/check_pictures.hpp"
 #include "app/report/check/check_words.hpp"
 #include "app/report/common/document.hpp"
@@ -296,12 +297,12 @@ void tell_surface(Document& d, const CheckReport& r) {
     if (!s.plc) d.say(tetgen_sentence(r) + ".", Tone::plain, For::page);
 }
 
-void tell_measures(Document& d, const CheckReport& r) {
+void tell_measures(Document& d, const CheckReport& r, const MeasureDistributions& known) {
     const auto rounded = [](double x) { return fmt::format("{:.4g}", x == 0 ? 0.0 : x); };
     Listing table{.columns = {left("measure of a cell", 31), right("min", 11), right("median", 11), right("max", 11),
                               right("worst cell", 11)}};
     for (const Measure& m : measures_of(r)) {
-        const Distribution x = distribution(m.values);
+        const Distribution x = m.of == nullptr ? distribution(m.values) : known.of(m.of);
         table.rows.push_back(x.min_cell < 0
                                  ? Row{{m.name, {"-"}, {"-"}, {"-"}, {"-"}}}
                                  : Row{{m.name, rounded(x.min), rounded(x.median), rounded(x.max),
@@ -334,8 +335,19 @@ std::string surface_figure(const CheckReport& r, const Surface& surface) {
         marked ? " Red: triangles with defects." : "");
 }
 
-Document check_document(const CheckReport& r, const Mesh& mesh, const std::string& name, const FixedMesh* fixed,
-                        const Surface* surface = nullptr) {
+/// What a report is written of, beside itself.
+struct CheckSubject {
+    const Mesh& mesh;  ///< of which pictures are drawn
+    const std::string& name;
+    Environment environment = {};
+    const FixedMesh* fixed = nullptr;
+    const Surface* surface = nullptr;  ///< of which a picture is drawn
+};
+
+Document check_document(const CheckReport& r, const CheckSubject& of) {
+    const Mesh& mesh = of.mesh;
+    const std::string& name = of.name;
+    const MeasureDistributions measures(r);
     Document d;
     d.title = name + (r.certified() ? fmt::format(": certified{}", for_straight_sides(r.curved)) : ": NOT certified");
     d.heading = (r.surface ? "Surface certificate of " : "Mesh certificate of ") + name;
@@ -357,15 +369,16 @@ Document check_document(const CheckReport& r, const Mesh& mesh, const std::strin
                           mesh.index_base == 1 ? " (the file itself numbers from 1)" : ""));
     tell_conditions(d, r, mesh);
     tell_defects(d, r, true, "Defects and remedies");
-    if (fixed != nullptr) d.append(fix_document(*fixed), For::page);
+    if (of.fixed != nullptr) d.append(fix_document(*of.fixed), For::page);
     if (drawn) d.add(Pictures{[&r, &mesh] { return exhibits(r, mesh); }}, For::page);
-    if (surface != nullptr) d.add(Pictures{[&r, surface] { return surface_figure(r, *surface); }}, For::page);
+    if (of.surface != nullptr)
+        d.add(Pictures{[&r, &surface = *of.surface] { return surface_figure(r, surface); }}, For::page);
     tell_contacts(d, r);
     if (r.surface && r.cells != 0) {
         tell_surface(d, r);
     } else if (r.cells != 0) {
         tell_whole_mesh(d, r);
-        tell_measures(d, r);
+        tell_measures(d, r, measures);
     }
     if (drawn) d.add(Pictures{[&r] { return histograms(r); }}, For::page);
     tell_defects(d, r, false, "Notes: these do not affect the certificate");
@@ -384,6 +397,7 @@ Document check_document(const CheckReport& r, const Mesh& mesh, const std::strin
     d.footer = fmt::format(
         "Made by barycert {} check: {}. Signs, counts, contacts and the verdict are exact; {} plain double precision.",
         measure_environment().version, checked, r.surface ? "areas and distances are" : "angles and ratios are");
+    d.data = check_data(r, measures, name, of.environment, of.fixed);
     return d;
 }
 
@@ -391,25 +405,27 @@ Document check_document(const CheckReport& r, const Mesh& mesh, const std::strin
 
 std::string check_text(const CheckReport& report, const Mesh& mesh, const std::string& name,
                        const TerminalStyle& style) {
-    const ExactEnvironment environment;
-    return terminal_text(check_document(report, mesh, name, nullptr), style.colour);
+    return written_text([&] { return check_document(report, {mesh, name}); }, style.colour);
+}
+
+std::string check_json(const CheckReport& report, const std::string& name, const Environment& environment,
+                       const FixedMesh* fixed) {
+    // Of the mesh programs are told nothing that is not in the report.
+    return written_json([&, none = Mesh()] { return check_document(report, {none, name, environment, fixed}); }, 1);
 }
 
 std::string fix_text(const FixedMesh& fixed, const TerminalStyle& style) {
-    const ExactEnvironment environment;
-    return terminal_text(fix_document(fixed), style.colour);
+    return written_text([&] { return fix_document(fixed); }, style.colour);
 }
 
 std::string check_html(const CheckReport& report, const Mesh& mesh, const std::string& name, const FixedMesh* fixed) {
-    const ExactEnvironment environment;
-    return page_text(check_document(report, mesh, name, fixed));
+    return written_page([&] { return check_document(report, {mesh, name, {}, fixed}); });
 }
 
 std::string check_html(const CheckReport& report, const Surface& surface, const std::string& name) {
-    const ExactEnvironment environment;
     Mesh none;
     none.index_base = surface.index_base;
-    return page_text(check_document(report, none, name, nullptr, &surface));
+    return written_page([&] { return check_document(report, {none, name, {}, nullptr, &surface}); });
 }
 
 }  // namespace barycert

@@ -131,6 +131,7 @@ std::vector<Measure> measures_of(const CheckReport& r) {
              plane ? "area, unit of coordinates squared" : "volume, unit of coordinates cubed",
              {.kind = Kind::logarithmic},
              std::move(sizes),
+             &CellMeasures::volume,
              false,
              "overflow"},
             {"accuracy lost to shape, bits",
@@ -140,20 +141,24 @@ std::vector<Measure> measures_of(const CheckReport& r) {
             {"circumradius / shortest edge",
              fmt::format("circumradius / shortest edge (regular: {})", plane ? "0.577" : "0.612"),
              {.kind = Kind::chosen},
-             m.radius_edge},
+             m.radius_edge,
+             &CellMeasures::radius_edge},
             {"aspect (regular cell: 1)",
              "aspect: longest edge / inradius, scaled (regular: 1)",
              {.kind = Kind::chosen},
-             m.aspect},
+             m.aspect,
+             &CellMeasures::aspect},
             {plane ? "smallest angle, degrees" : "smallest dihedral angle, deg",
              plane ? "smallest angle, degrees (regular: 60)" : "smallest dihedral angle, degrees (regular: 70.5)",
              {Kind::given, 0, plane ? 60.0 : 72.0, plane ? 1.5 : 2.0},
              m.min_angle,
+             &CellMeasures::min_angle,
              false},
             {plane ? "largest angle, degrees" : "largest dihedral angle, deg",
              plane ? "largest angle, degrees (regular: 60)" : "largest dihedral angle, degrees (regular: 70.5)",
              {Kind::given, plane ? 60.0 : 70.0, 180, plane ? 3.0 : 2.5},
-             m.max_angle}};
+             m.max_angle,
+             &CellMeasures::max_angle}};
 }
 
 std::string histograms(const CheckReport& r) {

@@ -15,14 +15,14 @@ namespace barycert::report {
 namespace {
 
 /// The cells that have a boundary: others could not be asked for their facets.
-mesh::Part proper_cells(const CheckReport& r, const Mesh& mesh) {
+mesh::Submesh proper_cells(const CheckReport& r, const Mesh& mesh) {
     std::vector<Mesh::Index> cells;
     for (std::size_t cell = 0; cell < mesh.cell_count(); ++cell) {
         const auto all = mesh.corners_of(cell);
         const bool twice = std::ranges::any_of(all, [&](Mesh::Index i) { return std::ranges::count(all, i) != 1; });
         if (drawable(mesh, cell) && !twice) cells.push_back(static_cast<Mesh::Index>(cell));
     }
-    mesh::Part part = mesh::part_of(mesh, std::move(cells));
+    mesh::Submesh part = mesh::part_of(mesh, std::move(cells));
     part.mesh.cell_numbers.clear();
     for (const Mesh::Index cell : part.cells)
         part.mesh.cell_numbers.push_back(static_cast<Mesh::Index>(r.cell_number(cell)));
@@ -91,7 +91,7 @@ constexpr Rgba red{200, 16, 46, 255}, blue{0, 114, 178, 255}, grey{128, 128, 128
 /// The mesh with these cells: it turns, if that is not too much for a page.
 std::string picture_of(const CheckReport& r, const Mesh& mesh, const std::vector<Exhibit>& exhibits, bool& turns) {
     const bool all = std::ranges::none_of(r.defects, leaves_cells_out), plane = mesh.dimension == 2;
-    const mesh::Part part = all ? mesh::Part() : proper_cells(r, mesh);
+    const mesh::Submesh part = all ? mesh::Submesh() : proper_cells(r, mesh);
     const Mesh& proper = all ? mesh : part.mesh;
     const auto facets = [&](std::vector<Mesh::Index> cells) {
         std::vector<Mesh::Index> own;

@@ -117,6 +117,7 @@ struct Measure {
     std::string axis;  ///< the measure, with its unit
     BinRule rule;
     std::vector<double> values;
+    std::vector<double> CellMeasures::*of = nullptr;  ///< the measure of the report that the values are, if one is
     bool max_is_worst = true;
     std::string_view infinite = "infinite (degenerate cells)";  ///< what an infinite value is
 };

@@ -179,7 +179,7 @@ struct Writer {
 
 std::string terminal_text(const Document& document, bool colour) {
     Writer writer{colour};
-    for (const Document::Block& block : document.blocks) {
+    for (const Document::Passage& block : document.blocks) {
         if (block.whom != For::page) std::visit(writer, block.content);
     }
     return std::move(writer.out);

@@ -139,16 +139,16 @@ public:
     Json data = {};
 
     using Content = std::variant<Headline, Section, Paragraph, Named, Listing, Item, Pictures>;
-    struct Block {
+    struct Passage {
         Content content;
         For whom;
     };
-    std::vector<Block> blocks = {};
+    std::vector<Passage> blocks = {};
 
     void add(Content content, For whom = For::all) { blocks.push_back({std::move(content), whom}); }
     /// All that `part` says.
     void append(Document part, For whom) {
-        for (Block& block : part.blocks) add(std::move(block.content), whom);
+        for (Passage& block : part.blocks) add(std::move(block.content), whom);
     }
     void section(std::string text, For whom = For::all, int level = 2) { add(Section{std::move(text), level}, whom); }
     /// With a heading on a page alone.
@@ -184,26 +184,26 @@ std::string terminal_text(const Document& document, bool colour);
 /// One page of HTML, self-contained and well-formed XML, for screens of any width, light and dark, and for paper.
 std::string page_text(const Document& document);
 
-/// The public functions that write what NAME_document says, of an audit and of a run: names which nothing but a macro
-/// makes. Each works in the exact environment.
-#define AUDIT_TEXT_AND_JSON(name, Report)                                       \
-    std::string name##_text(const Report& report, const TerminalStyle& style) { \
-        const ExactEnvironment environment;                                     \
-        return terminal_text(name##_document(report), style.colour);            \
-    }                                                                           \
-    std::string name##_json(const Report& report) {                             \
-        const ExactEnvironment environment;                                     \
-        return base::json_text(name##_document(report).data, 1);                \
-    }
-#define RUN_TEXT_AND_JSON(name, Report)                                    \
-    std::string name##_text(const Report& report, bool colour) {           \
-        const ExactEnvironment environment;                                \
-        return terminal_text(name##_document(report, {}), colour);         \
-    }                                                                      \
-    std::string name##_json(const Report& report, const Environment& of) { \
-        const ExactEnvironment environment;                                \
-        return base::json_text(name##_document(report, of).data, 2);       \
-    }
+// What public functions return: a document that fill() makes, as text, JSON and page. All in the exact environment.
+
+template <class Fill>
+std::string written_text(const Fill& fill, bool colour) {
+    const ExactEnvironment environment;
+    return terminal_text(fill(), colour);
+}
+
+/// Lists and records of up to `indent` levels begin lines, as json_text() has them.
+template <class Fill>
+std::string written_json(const Fill& fill, int indent) {
+    const ExactEnvironment environment;
+    return base::json_text(fill().data, indent);
+}
+
+template <class Fill>
+std::string written_page(const Fill& fill) {
+    const ExactEnvironment environment;
+    return page_text(fill());
+}
 
 /// For sentences that hold of straight sides alone; empty where these are the mesh's own.
 inline std::string_view for_straight_sides(const CurvedCells& curved) {

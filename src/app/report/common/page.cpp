@@ -280,7 +280,7 @@ struct PageWriter {
 std::string page_text(const Document& d) {
     PageWriter writer;
     std::vector<const Document::Content*> blocks;
-    for (const Document::Block& block : d.blocks) {
+    for (const Document::Passage& block : d.blocks) {
         if (block.whom != For::terminal) blocks.push_back(&block.content);
     }
     const auto folds = [&](std::size_t i) {

@@ -129,11 +129,11 @@ public:
     std::vector<Bin> bins() const;
 
 private:
-    struct Row {
+    struct ErrorsOfBits {
         double worst = 0;
         std::vector<std::uint64_t> errors;  ///< by magnitude, as long as it takes
     };
-    std::vector<Row> rows_;  ///< by bits, likewise
+    std::vector<ErrorsOfBits> rows_;  ///< by bits, likewise
     double worst_factor_ = -1;
 };
 

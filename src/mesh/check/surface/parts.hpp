@@ -10,7 +10,7 @@
 namespace barycert::check {
 
 /// Nodes at one place are one: that of the lowest of them.
-struct SurfaceParts : Findings {
+struct SurfaceParts : CheckRun {
     const Surface& surface;
     SurfaceReport& found = *report.surface;
 

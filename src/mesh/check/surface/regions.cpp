@@ -236,12 +236,13 @@ private:
             if (fresh) kinds.push_back(kind);
             kind_of[f] = at->second;
         }
-        struct Part {
+        struct SumsOfKinds {
             std::vector<long double> area;
             std::vector<Integer> six;
         };
         const std::size_t blocks = kinds.size() > 64 ? 1 : 64, block = count / blocks + 1;
-        std::vector<Part> parts(blocks, {std::vector<long double>(kinds.size()), std::vector<Integer>(kinds.size())});
+        std::vector<SumsOfKinds> parts(blocks,
+                                       {std::vector<long double>(kinds.size()), std::vector<Integer>(kinds.size())});
         base::parallel_for(blocks, [&](std::size_t i) {
             for (std::size_t f = i * block; f < std::min(count, (i + 1) * block); ++f) {
                 const auto at = s_.triangles.turned(f);
@@ -251,7 +252,7 @@ private:
             }
         });
         Sums all{std::vector<long double>(shells), std::vector<Integer>(shells), std::vector<Integer>(chambers)};
-        for (const Part& part : parts) {
+        for (const SumsOfKinds& part : parts) {
             for (std::size_t k = 0; k < kinds.size(); ++k) {
                 const auto& [shell, front, back] = kinds[k];
                 all.area[shell] += part.area[k];

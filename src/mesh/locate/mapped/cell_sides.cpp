@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <span>
 
+#include "core/vtk_cell.hpp"
 #include "mesh/adjacency.hpp"
 #include "mesh/pulling.hpp"
 
@@ -92,10 +93,7 @@ CellSides::CellSides(const mesh::CellMaps& maps, std::size_t whole, int dimensio
       nodes_(maps.nodes(whole)),
       places_(maps.places(whole)),
       dimension_(static_cast<std::size_t>(dimension)),
-      // CellMaps has the nodes of a voxel in the order of a hexahedron, those of a pixel in that of a quadrilateral.
-      type_(type == 11  ? 12
-            : type == 8 ? 9
-                        : type) {}
+      type_(mesh::numbered_round(type)) {}  // as CellMaps has the nodes
 
 std::size_t CellSides::facets() const {
     if (reference_.is_simplex()) return dimension_ + 1;
@@ -155,7 +153,8 @@ int CellSides::turn(std::size_t i) const {
     const std::array<std::size_t, 4> ring = this->ring(i, count);
     std::size_t low = 0;
     for (std::size_t c = 1; c < count; ++c) low = nodes_.at[ring[c]] < nodes_.at[ring[low]] ? c : low;
-    const int outward = type_ == 13 && !reference_.is_simplex() ? -1 : 1;  // rings of wedges are seen from inside
+    const int outward =
+        type_ == vtk_wedge && !reference_.is_simplex() ? -1 : 1;  // rings of wedges are seen from inside
     if (count == 2) return low == 0 ? 1 : -1;
     return nodes_.at[ring[(low + 1) % count]] < nodes_.at[ring[(low + count - 1) % count]] ? outward : -outward;
 }

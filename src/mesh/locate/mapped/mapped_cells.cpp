@@ -1,6 +1,7 @@
 #include "mesh/locate/mapped/mapped_cells.hpp"
 
 #include "core/base/finite.hpp"
+#include "core/vtk_cell.hpp"
 #include "mesh/adjacency.hpp"
 #include "mesh/locate/mapped/boundary.hpp"
 #include "mesh/mid_edges.hpp"
@@ -237,7 +238,7 @@ void MappedCells::arrange(const CellIndex& index) {
     constexpr std::array<std::array<std::uint8_t, 8>, 4> corners{
         {{0, 1, 3, 2, 4, 5, 7, 6}, {0, 1, 2, 3, 4, 5, 6, 7}, {0, 1, 2, 0, 3, 4, 5, 3}, {0, 1, 2, 3, 4, 4, 4, 4}}};
     const auto is_on_lanes = [&](std::size_t whole) {
-        return sign_[whole] != 0 && mesh_.shapes.types[whole] >= 11 && mesh_.shapes.types[whole] <= 14;
+        return sign_[whole] != 0 && mesh_.shapes.types[whole] >= vtk_voxel && mesh_.shapes.types[whole] <= vtk_pyramid;
     };
     std::size_t count = 0;
     for (std::size_t whole = 0; whole < whole_count(); ++whole) count += is_on_lanes(whole) ? 1 : 0;
@@ -256,7 +257,7 @@ void MappedCells::arrange(const CellIndex& index) {
             for (std::size_t i = 0; i < 8; ++i)
                 lane_nodes_[static_cast<std::size_t>(next)].at[i] =
                     place_of_node[static_cast<std::size_t>(mesh_.shapes.nodes_of(own)[corners[type - 11U][i]])];
-            number[own] = 2 * next++ + (type == 13 ? 1 : 0);
+            number[own] = 2 * next++ + (type == vtk_wedge ? 1 : 0);
         }
         lane_cell_[place] = number[own];
         lane_part_[place] = static_cast<std::uint8_t>(index.original[place] - first_part(own));

@@ -2,6 +2,7 @@
 
 #include "core/base/vectors.hpp"
 #include "core/isoparametric/ball.hpp"
+#include "core/vtk_cell.hpp"
 #include "mesh/index/crossing.hpp"
 #include "mesh/index/facet_contact.hpp"
 #include "mesh/locate/mapped/mapped_cells.hpp"
@@ -148,7 +149,7 @@ std::vector<MappedCells::AtSides> MappedCells::at_sides(const double* point) con
         const auto shape = static_cast<std::size_t>(warped_[i].whole);
         // The rings of a wedge are seen from outside where its Jacobian is negative, those of others where it is
         // positive.
-        const auto outward = static_cast<Sign>(mesh_.shapes.types[shape] == 13 ? -sign_[shape] : sign_[shape]);
+        const auto outward = static_cast<Sign>(mesh_.shapes.types[shape] == vtk_wedge ? -sign_[shape] : sign_[shape]);
         bool some = false, outside = false;
         Feature on = Feature::interior;
         for_sides(shape, [&](const std::array<const double*, 4>& n, unsigned bit) {
@@ -183,9 +184,7 @@ std::uint64_t MappedCells::active_nodes(std::size_t shape, const double* point) 
         return active;
     }
     const bool flat = mesh_.dimension == 2;
-    // CellMaps has the nodes of a voxel in the order of a hexahedron, those of a pixel in that of a quadrilateral.
-    const std::uint8_t type = mesh_.shapes.types[shape];
-    const auto& faces = mesh::rings_of(type == 11 ? 12 : type == 8 ? 9 : type);
+    const auto& faces = mesh::rings_of(mesh::numbered_round(mesh_.shapes.types[shape]));  // as CellMaps has the nodes
     const std::size_t count = flat ? faces.front().size() : faces.size();
     for (std::size_t face = 0; face < count; ++face) {
         const std::vector<Mesh::Index>& ring = flat ? faces.front() : faces[face];

@@ -19,13 +19,13 @@ void round_on(const Point3& p, const NearFeature& f, SurfaceNearest& to) {
 }
 
 /// Points side by side in space, at most `most` of them.
-class Block {
+class PointCluster {
 public:
     static constexpr std::size_t most = 512;
     /// More candidates of one point are settled by themselves: far more would take the memory of all others.
     static constexpr std::size_t many = 64;
 
-    Block(const SurfaceData& data, double limit) : data_(data), groups_(data.near_groups()), limit_(limit) {
+    PointCluster(const SurfaceData& data, double limit) : data_(data), groups_(data.near_groups()), limit_(limit) {
         // The limit is that of rounded distances.
         const double reach = std::ldexp(limit, groups_.exponent) * (1 + 0x1p-50) + 0x1p-500;
         square_ = reach * reach * (1 + 0x1p-50);
@@ -246,7 +246,7 @@ void SurfaceData::nearest(std::span<const double* const> points, double limit,
         for (SurfaceNearest* const one : to) *one = none();
         return;
     }
-    Block block(*this, limit);
+    PointCluster block(*this, limit);
     for (std::size_t i = 0; i < points.size(); ++i) {
         block.add(points[i], to[i]);
         if (block.full()) block.finish();

@@ -21,8 +21,8 @@ struct FillBlock {
     Mesh::Index id[max_lanes];
     CellBlock<d> cells;
     BoxBlock<d> boxes;
-    std::uint32_t valid, box;           ///< bits; box: with few points in their boxes
-    typename Values<d>::Block* values;  ///< by component
+    std::uint32_t valid, box;                ///< bits; box: with few points in their boxes
+    typename Values<d>::CellValues* values;  ///< by component
 };
 
 template <int d>
@@ -39,8 +39,7 @@ struct Filling {
     bool one_number() const { return target.stride == 1 && components() == 1; }
     /// Unless kept.
     void own(std::size_t point, Mesh::Index cell, bool certain) const {
-        if (target.owner[point] >= 0 || !certain)
-            target.feature[point] = certain ? Feature::interior : without_value(Feature::interior);
+        if (target.owner[point] >= 0 || !certain) target.set_feature(point, Feature::interior, certain);
         target.owner[point] = cell;
     }
 };
@@ -157,14 +156,14 @@ HWY_INLINE void fill_box_component(D tag, const Filling<d>& to, const FillBlock<
                 const Mesh::Index before = target.owner[point(i)];
                 if (HWY_UNLIKELY(before >= 0)) {
                     if (before < id) continue;
-                    target.feature[point(i)] = Feature::interior;
+                    target.set_feature(point(i), Feature::interior, true);
                 }
                 target.values[point(i)] = values[i];
                 target.owner[point(i)] = id;
             }
             for (std::uint32_t rest = ~bits & ((1U << used) - 1); HWY_UNLIKELY(rest != 0); rest &= rest - 1) {
                 const std::size_t one_of_them = point(static_cast<std::size_t>(__builtin_ctz(rest)));
-                if (target.owner[one_of_them] == id) target.feature[one_of_them] = without_value(Feature::interior);
+                if (target.owner[one_of_them] == id) target.set_feature(one_of_them, Feature::interior, false);
             }
             if (HWY_UNLIKELY(at + width > one.end && one.end != one.open_end))
                 list_open(to, b, one, found, at, width, values, bits);
@@ -354,7 +353,7 @@ void fill_all(const FillSource& source, std::span<const locate::Place> cells, co
     const Filling<d> to{source, target, undecided};
     FillBlock<Values, d> blocks[blocks_at_once];
     RowsBlock<d> rows;
-    std::vector<typename Values<d>::Block> values(to.components() * blocks_at_once);
+    std::vector<typename Values<d>::CellValues> values(to.components() * blocks_at_once);
     std::vector<typename Values<d>::RowTerms> terms(to.components());
     for (std::size_t i = 0; i < blocks_at_once; ++i) blocks[i].values = values.data() + i * to.components();
     std::size_t count = 0;
@@ -407,9 +406,9 @@ void fill_cells(const FillSource& source, std::span<const locate::Place> cells, 
 /// One by one.
 HWY_INLINE void finish_point(const FillTarget& target, std::size_t point, const double* outside, FinishedPoints& out) {
     Feature& feature = target.feature[point];
-    const bool owned = target.owner[point] >= 0;
-    if (owned && feature == Feature::outside) feature = Feature::interior;
-    if (owned ? lacks_value(feature) : outside == nullptr) {
+    const bool owned = target.owner[point] >= 0, set = feature != Feature::outside;
+    if (owned && !set) feature = Feature::interior;
+    if (owned ? set && target.value_missing[point] != 0 : outside == nullptr) {
         out.others.push_back(static_cast<std::uint32_t>(point));
     } else if (owned) {
         out.locations.add(feature);

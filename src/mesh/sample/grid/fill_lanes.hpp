@@ -31,20 +31,13 @@ struct Span {
     std::int32_t first, inner_first, inner_last, last;
 };
 
-/// In FillTarget::feature, beside the feature: the value is still to be found.
-inline constexpr std::uint8_t value_missing = 0x80;
-constexpr Feature without_value(Feature f) {
-    return static_cast<Feature>(static_cast<std::uint8_t>(f) | value_missing);
-}
-constexpr bool lacks_value(Feature f) {
-    return (static_cast<std::uint8_t>(f) & value_missing) != 0;
-}
-
 /// The points of some layers (2D: lines) of a grid, line after line. Each array has room for a vector more.
 struct FillTarget {
     Mesh::Index* owner = nullptr;  ///< -1: none yet
     /// Of a point with an owner: outside means interior. Of others: outside.
     Feature* feature = nullptr;
+    /// The value is still to be found. Set with `feature`: of no meaning before.
+    std::uint8_t* value_missing = nullptr;
     double* values = nullptr;
     std::size_t stride = 1;  ///< numbers a point in `values`, of which the first are the components of the nodes
     std::size_t columns = 0, rows = 0;  ///< 2D: one row a layer
@@ -56,6 +49,10 @@ struct FillTarget {
     }
     /// Cells may overlap: the lowest keeps a point.
     bool kept(std::size_t point, Mesh::Index cell) const { return owner[point] >= 0 && owner[point] < cell; }
+    void set_feature(std::size_t point, Feature found, bool with_value) const {
+        feature[point] = found;
+        value_missing[point] = with_value ? 0 : 1;
+    }
 };
 
 /// What cells fill in: the points of a grid, by the components of the nodes. Cells are linear. If there are no
@@ -87,8 +84,8 @@ struct UndecidedFill {
     }
 };
 
-/// For points that are certainly in the interior of one of the cells: sets owner, and values, or the feature where
-/// their rounding is not certain. Adds the rest to `undecided`.
+/// For points that are certainly in the interior of one of the cells: sets owner, and values, or the feature and
+/// `value_missing` where their rounding is not certain. Adds the rest to `undecided`.
 void fill_cells(const FillSource& source, std::span<const locate::Place> cells, const FillTarget& target,
                 UndecidedFill& undecided);
 

@@ -152,14 +152,14 @@ HWY_INLINE Partial<V> added(const Partial<V>& x, const Partial<V>& y) {
 template <int d>
 struct CorrectValues {
     /// Of a component, by cell of a block.
-    struct Block {
+    struct CellValues {
         HWY_ALIGN double at_origin[max_lanes], plain[d][max_lanes], correction[d][max_lanes], error[max_lanes];
         std::uint32_t valid;  ///< bits
     };
 
     template <class D, class V = hn::Vec<D>>
     static HWY_INLINE void set(D tag, const CellMatrix<d, D>& m, const V (&)[d + 1][d], const V (&extent)[d],
-                               const V (&f)[d + 1], Block& out) {
+                               const V (&f)[d + 1], CellValues& out) {
         constexpr double u = 0x1p-53;
         const RefinedGradient<d, D> g = refined_gradient<d>(tag, m, f);
         V size = hn::Abs(f[d]), corrections = hn::Zero(tag), eta = hn::Zero(tag);
@@ -182,7 +182,7 @@ struct CorrectValues {
 
     /// What axis k contributes to component `b` of cell l at places `at`; that of the second one with f_o.
     template <int k, class D, class V = hn::Vec<D>>
-    static HWY_INLINE Partial<V> term(D tag, const CellBlock<d>& cell, const Block& b, std::size_t l, V at) {
+    static HWY_INLINE Partial<V> term(D tag, const CellBlock<d>& cell, const CellValues& b, std::size_t l, V at) {
         const TwoTerms<V> w = two_difference(at, hn::Set(tag, cell.origin[k][l]));
         const V plain = hn::Set(tag, b.plain[k][l]);
         const TwoTerms<V> p = two_product(plain, w.high);
@@ -193,7 +193,8 @@ struct CorrectValues {
 
     /// The rounded value, and a bit where that is certain.
     template <class D, class V = hn::Vec<D>>
-    static HWY_INLINE V rounded(D tag, const Block& b, std::size_t l, const Partial<V>& sum, std::uint32_t& certain) {
+    static HWY_INLINE V rounded(D tag, const CellValues& b, std::size_t l, const Partial<V>& sum,
+                                std::uint32_t& certain) {
         auto mask = hn::FirstN(tag, hn::MaxLanes(D()));
         const V out = rounded_if_certain<D>(sum.sum, sum.rest, hn::Set(tag, b.error[l]), mask) + hn::Zero(tag);
         certain = (b.valid >> l & 1) != 0 ? mask_bits(tag, mask) : 0;
@@ -205,7 +206,7 @@ struct CorrectValues {
         HWY_ALIGN double sum[d][max_lanes], rest[d][max_lanes];
     };
     template <int k, class D>
-    static HWY_INLINE void set_axis(D tag, const Raster& raster, const CellBlock<d>& cell, const Block& b,
+    static HWY_INLINE void set_axis(D tag, const Raster& raster, const CellBlock<d>& cell, const CellValues& b,
                                     std::size_t l, Table& out) {
         const double* const from = raster.at[k].data() + cell.first[k][l];
         const std::int32_t count = cell.last[k][l] - cell.first[k][l];
@@ -217,14 +218,14 @@ struct CorrectValues {
         }
     }
     template <class D>
-    static HWY_INLINE void set_table(D tag, const Raster& raster, const CellBlock<d>& cell, const Block& b,
+    static HWY_INLINE void set_table(D tag, const Raster& raster, const CellBlock<d>& cell, const CellValues& b,
                                      std::size_t l, Table& out) {
         set_axis<0>(tag, raster, cell, b, l, out);
         set_axis<1>(tag, raster, cell, b, l, out);
         if constexpr (d == 3) set_axis<2>(tag, raster, cell, b, l, out);
     }
     template <class D, class I, class V = hn::Vec<D>>
-    static HWY_INLINE V at_places(D tag, const Block& b, std::size_t l, const Table& table, const I (&place)[d],
+    static HWY_INLINE V at_places(D tag, const CellValues& b, std::size_t l, const Table& table, const I (&place)[d],
                                   std::uint32_t& certain) {
         const auto at = [&](int k) HWY_ATTR {
             return Partial<V>{look_up(tag, table.sum[k], place[k]), look_up(tag, table.rest[k], place[k])};
@@ -239,16 +240,16 @@ struct CorrectValues {
         HWY_ALIGN double sum[max_lanes], rest[max_lanes];
     };
     template <class D>
-    static HWY_INLINE void set_rows(D tag, const CellBlock<d>& cell, const Block& b, std::size_t l, const Rows& rows,
-                                    std::size_t at, RowTerms& out) {
+    static HWY_INLINE void set_rows(D tag, const CellBlock<d>& cell, const CellValues& b, std::size_t l,
+                                    const Rows& rows, std::size_t at, RowTerms& out) {
         auto t = term<1>(tag, cell, b, l, hn::Load(tag, rows.y + at));
         if constexpr (d == 3) t = added(t, term<2>(tag, cell, b, l, hn::Load(tag, rows.z + at)));
         hn::Store(t.sum, tag, out.sum);
         hn::Store(t.rest, tag, out.rest);
     }
     template <class D, class V = hn::Vec<D>>
-    static HWY_INLINE V at_row(D tag, const CellBlock<d>& cell, const Block& b, std::size_t l, const RowTerms& rows,
-                               std::size_t r, V x, std::uint32_t& certain) {
+    static HWY_INLINE V at_row(D tag, const CellBlock<d>& cell, const CellValues& b, std::size_t l,
+                               const RowTerms& rows, std::size_t r, V x, std::uint32_t& certain) {
         const Partial<V> row{hn::Set(tag, rows.sum[r]), hn::Set(tag, rows.rest[r])};
         return rounded(tag, b, l, added(row, term<0>(tag, cell, b, l, x)), certain);
     }
@@ -257,13 +258,13 @@ struct CorrectValues {
 /// In plain double, with the bits of those of points; as CorrectValues. Every value is certain, whatever it is.
 template <int d>
 struct PlainValues {
-    struct Block {
+    struct CellValues {
         HWY_ALIGN double vertex[d + 1][d][max_lanes], value[d + 1][max_lanes];
     };
 
     template <class D, class V = hn::Vec<D>>
     static HWY_INLINE void set(D tag, const CellMatrix<d, D>&, const V (&v)[d + 1][d], const V (&)[d],
-                               const V (&f)[d + 1], Block& out) {
+                               const V (&f)[d + 1], CellValues& out) {
         for (int i = 0; i <= d; ++i) {
             for (int k = 0; k < d; ++k) hn::Store(v[i][k], tag, out.vertex[i][k]);
             hn::Store(f[i], tag, out.value[i]);
@@ -271,7 +272,7 @@ struct PlainValues {
     }
 
     template <class D, class V = hn::Vec<D>>
-    static HWY_INLINE V value(D tag, const Block& b, std::size_t l, const V (&p)[d]) {
+    static HWY_INLINE V value(D tag, const CellValues& b, std::size_t l, const V (&p)[d]) {
         constexpr Simplex s = d == 3 ? Simplex::tetrahedron : Simplex::triangle;
         Relative<s, V> relative;
         for (int i = 0; i <= d; ++i) {
@@ -286,8 +287,8 @@ struct PlainValues {
         HWY_ALIGN double at[d][max_lanes];
     };
     template <class D>
-    static HWY_INLINE void set_table(D tag, const Raster& raster, const CellBlock<d>& cell, const Block&, std::size_t l,
-                                     Table& out) {
+    static HWY_INLINE void set_table(D tag, const Raster& raster, const CellBlock<d>& cell, const CellValues&,
+                                     std::size_t l, Table& out) {
         constexpr auto width = static_cast<std::int32_t>(hn::MaxLanes(D()));
         for (int k = 0; k < d; ++k) {
             const double* const from = raster.at[static_cast<std::size_t>(k)].data() + cell.first[k][l];
@@ -296,7 +297,7 @@ struct PlainValues {
         }
     }
     template <class D, class I, class V = hn::Vec<D>>
-    static HWY_INLINE V at_places(D tag, const Block& b, std::size_t l, const Table& table, const I (&place)[d],
+    static HWY_INLINE V at_places(D tag, const CellValues& b, std::size_t l, const Table& table, const I (&place)[d],
                                   std::uint32_t& certain) {
         V p[d];
         for (int k = 0; k < d; ++k) p[k] = look_up(tag, table.at[k], place[k]);
@@ -308,13 +309,13 @@ struct PlainValues {
         double y[max_lanes], z[max_lanes];
     };
     template <class D>
-    static HWY_INLINE void set_rows(D, const CellBlock<d>&, const Block&, std::size_t, const Rows& rows, std::size_t at,
-                                    RowTerms& out) {
+    static HWY_INLINE void set_rows(D, const CellBlock<d>&, const CellValues&, std::size_t, const Rows& rows,
+                                    std::size_t at, RowTerms& out) {
         std::copy_n(rows.y + at, hn::MaxLanes(D()), out.y);
         std::copy_n(rows.z + at, hn::MaxLanes(D()), out.z);
     }
     template <class D, class V = hn::Vec<D>>
-    static HWY_INLINE V at_row(D tag, const CellBlock<d>&, const Block& b, std::size_t l, const RowTerms& rows,
+    static HWY_INLINE V at_row(D tag, const CellBlock<d>&, const CellValues& b, std::size_t l, const RowTerms& rows,
                                std::size_t r, V x, std::uint32_t& certain) {
         V p[d];
         p[0] = x;

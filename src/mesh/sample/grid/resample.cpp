@@ -74,7 +74,7 @@ public:
     /// Calls work(cells), one part of them after the other.
     template <class Work>
     void for_parts(std::size_t slab, Work work) const {
-        for (const Part& part : parts_) {
+        for (const RunOfCells& part : parts_) {
             if (slab < part.first_slab || slab - part.first_slab >= part.cells.size()) continue;
             const std::span<const locate::Place> cells = part.cells[slab - part.first_slab];
             if (!cells.empty()) work(cells);
@@ -83,11 +83,11 @@ public:
 
 private:
     /// Of cells that follow one another: those of each slab, from the first one on.
-    struct Part {
+    struct RunOfCells {
         std::size_t first_slab = 0;
         base::Lists<locate::Place> cells;
     };
-    std::vector<Part> parts_;
+    std::vector<RunOfCells> parts_;
 };
 
 /// Layers [first, last) of the third axis (2D: of the second), and the rows of their points. Keeps its memory from slab
@@ -106,7 +106,8 @@ public:
         const BlockRows to = make_room(found_, points_ + more, data_.width, options_.outside);
         std::fill_n(to.cells, points_ + more, -1);
         std::fill_n(to.features, points_ + more, Feature::outside);
-        target_ = {to.cells, to.features, to.values, data_.width, columns, rows, first, last};
+        if (value_missing_.size() < points_ + more) value_missing_.resize(points_ + more);
+        target_ = {to.cells, to.features, value_missing_.data(), to.values, data_.width, columns, rows, first, last};
         counts_ = {};
         sampler_.emplace(data_, options_, to);
         // Of plain values, fill_cells does not see which have a node that is not finite.
@@ -195,7 +196,7 @@ private:
         if (!signs.contains()) return std::nullopt;
         const Feature feature = locate::feature_of(data_.index(), cell, signs);
         found_.cells[point] = number;
-        found_.features[point] = with_value ? feature : without_value(feature);
+        target_.set_feature(point, feature, with_value);
         return point;
     }
 
@@ -211,7 +212,7 @@ private:
             finished_.others.clear();
             finish_points(target_, first, last, same ? &fill : nullptr, finished_);
             for (const std::uint32_t point : finished_.others) {
-                counts_.locations.add(feature_of(point));
+                counts_.locations.add(found_.features[point]);
                 push(point);
             }
             // Points that are pushed get a whole row; where cells fill in values, they are linear.
@@ -237,11 +238,8 @@ private:
         sampler_->push({{raster_.at[0][point % target_.columns], raster_.at[1][space ? row : layer],
                          raster_.at[2][space ? layer : 0]},
                         static_cast<std::uint32_t>(point)},
-                       cell < 0 ? -1 : data_.located().places()[static_cast<std::size_t>(cell)], feature_of(point));
-    }
-
-    Feature feature_of(std::size_t point) const {
-        return static_cast<Feature>(static_cast<std::uint8_t>(found_.features[point]) & ~value_missing);
+                       cell < 0 ? -1 : data_.located().parts.places()[static_cast<std::size_t>(cell)],
+                       found_.features[point]);
     }
 
     const SamplerData& data_;
@@ -252,6 +250,7 @@ private:
     std::size_t points_ = 0;
     bool filled_ = false;  ///< cells fill in values
     FoundRows found_;
+    std::vector<std::uint8_t> value_missing_;
     SampleCounts counts_;
     std::optional<ChunkSampler> sampler_;
     UndecidedFill undecided_;

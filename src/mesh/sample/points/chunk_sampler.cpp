@@ -195,7 +195,7 @@ void ChunkSampler::settled(const locate::PointRecord& point, const Location& at,
     if (mapped.evaluates(at.cell, point.at.data())) {
         using core::isoparametric::Certainty;
         if (data_.point_components == 0) return set_row(point, at, nullptr, 1);
-        const auto place = [&] { return data_.located().places()[static_cast<std::size_t>(at.cell)]; };
+        const auto place = [&] { return data_.located().parts.places()[static_cast<std::size_t>(at.cell)]; };
         if (on_lanes && lanes_->push(at, point, place(), true)) return;
         values_.resize(std::max(values_.size(), data_.point_components));
         const auto found =
@@ -209,7 +209,8 @@ void ChunkSampler::settled(const locate::PointRecord& point, const Location& at,
         }
         straight = mapped.part_at(at.cell, point.at.data());
     }
-    push_straight(point, straight < 0 ? -1 : data_.located().places()[static_cast<std::size_t>(straight)], at.feature);
+    push_straight(point, straight < 0 ? -1 : data_.located().parts.places()[static_cast<std::size_t>(straight)],
+                  at.feature);
 }
 
 void ChunkSampler::set_row(const locate::PointRecord& point, const Location& at, const double* values,
@@ -343,7 +344,7 @@ locate::Place ChunkSampler::outside(const locate::PointRecord& point) {
         outside_maps(point, in_maps);
         return -1;
     }
-    if (!snap) return data_.located().places()[static_cast<std::size_t>(nearest.cell)];
+    if (!snap) return data_.located().parts.places()[static_cast<std::size_t>(nearest.cell)];
     snapped_values(data_, options_.rounding, nearest, point.at, row(point), counts_.values);
     return -1;
 }

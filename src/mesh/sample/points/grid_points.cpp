@@ -1,4 +1,5 @@
 // Fields of a grid whose cells are not listed (Mesh::axes).
+#include "core/vtk_cell.hpp"
 #include "mesh/locate/batch.hpp"
 #include "mesh/sample/points/chunk_sampler.hpp"
 
@@ -70,7 +71,7 @@ private:
     }
 
     void set_product(const double* point, std::size_t cell, double* row) const {
-        const iso::Reference& reference = *iso::linear_reference(d_ == 3 ? 12 : 9);
+        const iso::Reference& reference = *iso::linear_reference(d_ == 3 ? vtk_hexahedron : vtk_quad);
         std::array<Corner, 8> corners;
         iso::Places places;
         std::uint64_t active = 0;

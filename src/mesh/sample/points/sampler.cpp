@@ -302,7 +302,7 @@ Status Sampler::evaluate(std::span<const double> points, const SampleOptions& op
                 .what = "a cell of a point that is not finite", .expected = "-1", .found = std::to_string(cells[row])};
     }
     sample::resize(*data_, options, count, out);
-    const std::vector<locate::Place>& places = data_->located().places();
+    const std::vector<locate::Place>& places = data_->located().parts.places();
     const locate::CellIndex& index = data_->index();
     constexpr std::size_t grain = std::size_t{1} << 13;
     const auto evaluate_rows = [&](std::size_t first, std::size_t last, SampleCounts& counts) {

@@ -84,8 +84,8 @@ TEST(SampleLeftOut, E1D1SameRowsAsByFewPoints) {
                 EXPECT_EQ(rows.counts.without_value, counts.without_value) << stem;
                 EXPECT_EQ(rows.counts.farthest, counts.farthest) << stem;
             }
-            EXPECT_EQ(locate::LocatorData::of(few.locator()).occupancy(), nullptr) << stem;
-            EXPECT_NE(locate::LocatorData::of(many.locator()).occupancy(), nullptr) << stem;
+            EXPECT_EQ(locate::LocatorData::of(few.locator()).parts.occupancy(), nullptr) << stem;
+            EXPECT_NE(locate::LocatorData::of(many.locator()).parts.occupancy(), nullptr) << stem;
             // The first one outside, in the order of the caller.
             SampleOptions options;
             options.outside.kind = Outside::error;

@@ -1,4 +1,5 @@
 // The report on a mesh as programs read it, and what systems that run checks are told.
+#include "app/report/check/check_data.hpp"
 
 #include "app/report/check/check_words.hpp"
 #include "app/report/common/document.hpp"
@@ -83,12 +84,10 @@ Json contact_json(const CheckReport& r, const CellContact& c) {
                          list(point, base::hexadecimal), "fraction", fraction));
 }
 
-Json measures_json(const CheckReport& r) {
+Json measures_json(const CheckReport& r, const MeasureDistributions& measures) {
     Json all;
     for (const auto& [name, of] : cell_measures) {
-        std::vector<double> values(r.measures.*of);
-        for (double& x : values) x = std::fabs(x);  // only volumes have a sign
-        const Distribution d = distribution(values);
+        const Distribution& d = measures.of(of);
         put(all, name,
             d.min_cell < 0 ? Json()
                            : record("least", d.min, "median", d.median, "most", d.max, "least_cell",
@@ -122,15 +121,29 @@ std::string defect_message(const CheckReport& r, const Defect& d) {
 
 }  // namespace
 
-std::string check_json(const CheckReport& r, const std::string& name, const Environment& environment,
-                       const FixedMesh* fixed) {
-    const ExactEnvironment exact;
+report::MeasureDistributions::MeasureDistributions(const CheckReport& r) {
+    if (r.surface) return;
+    for (std::size_t i = 0; i < all_.size(); ++i) {
+        std::vector<double> values(r.measures.*cell_measures[i].second);
+        for (double& x : values) x = std::fabs(x);  // only volumes have a sign
+        all_[i] = distribution(values);
+    }
+}
+
+const Distribution& report::MeasureDistributions::of(std::vector<double> CellMeasures::*measure) const {
+    std::size_t i = 0;
+    while (cell_measures[i].second != measure) ++i;
+    return all_[i];
+}
+
+Json report::check_data(const CheckReport& r, const MeasureDistributions& measures, const std::string& name,
+                        const Environment& environment, const FixedMesh* fixed) {
     Json j =
         record("schema", check_schema, "mesh", name, MEMBERS(r, curved), "verdict", r.certificate.verdict(),
                MEMBERS(r, dimension, nodes, cells, notes, not_finite), "conditions", conditions_json(r), "findings",
                defects_json(r), "contacts", list(r.contacts, [&](const CellContact& c) { return contact_json(r, c); }),
                "orientation", record(MEMBERS(r, positive, negative, degenerate)), MEMBERS(r, parts, boundary, volume),
-               "measures", measures_json(r));
+               "measures", measures_json(r, measures));
     if (r.shapes != 0) put(j, MEMBERS(r, shapes));
     if (r.maps) {
         const MapReport& m = *r.maps;
@@ -161,7 +174,7 @@ std::string check_json(const CheckReport& r, const std::string& name, const Envi
     if (fixed != nullptr) put(j, "fix", fix_json(*fixed));
     put(j, "problem_bits", list(defect_texts, [](const DefectText& t) { return t.name; }), MEMBERS(r, seconds, threads),
         "environment", environment);
-    return base::json_text(j, 1);
+    return j;
 }
 
 CiReport check_outcomes(const CheckReport& r, const Mesh& mesh, const std::string& name, const std::string& artifact,

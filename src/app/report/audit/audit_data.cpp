@@ -34,21 +34,6 @@ Json prediction_json(const Prediction& p) {
                   }));
 }
 
-Json kernel_json(const Kernel& k) {
-    Json j = record(MEMBERS(k, name, simplex, perspective, formula, source, fails, declares_degenerate, certifies),
-                    "contained", k.host != nullptr, "region_rule",
-                    k.rule == RegionRule::sign  ? "sign"
-                    : k.rule == RegionRule::own ? "own"
-                                                : "tolerant");
-    if (k.rule == RegionRule::tolerant) put(j, MEMBERS(k, tolerance));
-    return j;
-}
-
-Json family_json(const Family& f) {
-    return record(MEMBERS(f, name), "after", f.tests, MEMBERS(f, parameters, needs_mesh), "simplices",
-                  list(f.simplices, [](Simplex s) { return name(s); }), MEMBERS(f, perspective));
-}
-
 Json result_json(const AuditReport& r, const KernelResult& k) {
     Json j = kernel_json(k.kernel);
     put_statistics(j, k.total);
@@ -76,27 +61,17 @@ std::string change_text(const BaselineChange& c) {
 
 }  // namespace
 
-std::string audit_json(const AuditReport& r) {
-    const ExactEnvironment environment;
+Json report::audit_data(const AuditReport& r) {
     Json regions, witnesses = Json::array();
     for (const Region region : all_regions) put(regions, name(region), r.regions[static_cast<std::size_t>(region)]);
     for (const KernelResult& k : r.kernels) {
         for (const Witness& w : k.witnesses) witnesses.push_back(audit::witness_json(w));
     }
-    const Json j = record(
-        "schema", audit_schema, MEMBERS(r, environment, seed, count, threads, meshes), "verdicts",
-        list(r.verdicts, [](Verdict v) { return name(v); }), MEMBERS(r, curved, cases), "regions", regions, "oracles",
-        oracles_json(r.oracle, r.oracles), MEMBERS(r, seconds), "families", list(r.families, family_json), "kernels",
-        list(r.kernels, [&](const KernelResult& k) { return result_json(r, k); }), "witnesses", witnesses);
-    return base::json_text(j, 1);
-}
-
-std::string kernels_json(const std::vector<Kernel>& kernels) {
-    return base::json_text(record("schema", audit_schema, "kernels", list(kernels, kernel_json)), 1);
-}
-
-std::string families_json(const std::vector<Family>& families) {
-    return base::json_text(record("schema", audit_schema, "families", list(families, family_json)), 1);
+    return record("schema", audit_schema, MEMBERS(r, environment, seed, count, threads, meshes), "verdicts",
+                  list(r.verdicts, [](Verdict v) { return name(v); }), MEMBERS(r, curved, cases), "regions", regions,
+                  "oracles", oracles_json(r.oracle, r.oracles), MEMBERS(r, seconds), "families",
+                  list(r.families, family_json), "kernels",
+                  list(r.kernels, [&](const KernelResult& k) { return result_json(r, k); }), "witnesses", witnesses);
 }
 
 CiReport audit_outcomes(const AuditReport& report, const std::vector<Threshold>& rules,

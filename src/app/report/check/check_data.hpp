@@ -1,0 +1,30 @@
+/// What programs read of a check: the data of its document.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "app/report/common/json.hpp"
+#include "barycert/check.hpp"
+#include "barycert/report.hpp"
+
+namespace barycert::report {
+
+/// Of the absolute values of each of cell_measures, over all cells: for people and programs computed once. None of
+/// surfaces.
+class MeasureDistributions {
+public:
+    explicit MeasureDistributions(const CheckReport& report);
+
+    const Distribution& of(std::vector<double> CellMeasures::*measure) const;
+
+private:
+    std::array<Distribution, cell_measures.size()> all_{};
+};
+
+/// `fixed`: nullptr, or what was repaired.
+Json check_data(const CheckReport& report, const MeasureDistributions& measures, const std::string& name,
+                const Environment& environment, const FixedMesh* fixed);
+
+}  // namespace barycert::report
