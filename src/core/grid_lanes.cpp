@@ -193,7 +193,7 @@ struct GridLanes {
         inverse = set(1) / volume.high;
     }
 
-    /// Of the eight corners of the cell; returns the largest.
+    /// Loads the values at the eight corners of the cell; returns the largest in size.
     HWY_INLINE V load(const NodeComponent& field, V (&f)[8]) const {
         V most = hn::Zero(tag);
         for (std::size_t j = 0; j < 4; ++j) {

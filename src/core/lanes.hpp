@@ -53,8 +53,9 @@ constexpr int quadratic_edge(int i, int j) {
     return -1;
 }
 
-/// What plain lanes leave undecided: out[components * j + c] of the cases j in `undecided`, where one of the `nodes`
-/// values of component c is not finite. What has no part in the value is left out; where one has, it is NaN.
+/// Computes the values that plain lanes leave undecided: out[components * j + c] of the cases j in `undecided`, where
+/// one of the `nodes` values of component c is not finite. Leaves out a node that has no part in the value; where such
+/// a node has a part, the value is NaN.
 void mend_plain_values(Simplex s, const CaseBlock& cases, std::span<const std::uint32_t> undecided,
                        const double* const* values, int nodes, int components, double* out);
 

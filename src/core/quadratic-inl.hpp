@@ -42,7 +42,7 @@ namespace barycert::core::HWY_NAMESPACE {
 template <Simplex s>
 inline constexpr int quadratic_nodes = vertex_count(s) + mid_node_count(s);
 
-/// What the values of all components share.
+/// The terms that the values of all components share.
 template <Simplex s, class D>
 struct QuadraticWeights {
     using V = hn::Vec<D>;

@@ -257,8 +257,8 @@ HWY_INLINE Refined<s, D> refine_projected(D tag, const Absolute<s, V>& c) {
     return out;
 }
 
-/// Of x + (y - error) and x + (y + error), where they round to the same double: rounding is monotonic, so that is the
-/// rounding of every number between them. Where not, `certain` is cleared.
+/// Returns the double to which both x + (y - error) and x + (y + error) round: rounding is monotonic, so every number
+/// between them rounds to it. Clears `certain` where they round to different doubles.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V rounded_if_certain(V x, V y, V error, hn::Mask<D>& certain) {
     const V low = x + (y - error), high = x + (y + error);

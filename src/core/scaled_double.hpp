@@ -49,7 +49,7 @@ struct Unit {
 
     /// All numbers are below 2^bits() in this unit; below 1 if they are all zero.
     int bits() const { return top - exponent; }
-    /// Of two, that the unit is; 0 if all numbers are zero.
+    /// The power of two that the unit is; 0 if all numbers are zero.
     int power() const { return exponent == ScaledDouble::none ? 0 : exponent - 1074; }
 
     /// x as a multiple of this unit. Preconditions: x was added; Fixed<N> has more than bits() bits.

@@ -104,7 +104,7 @@ inline Character first_character(std::string_view text) {
 /// `text` as one word for a POSIX shell, to be copied, quoted where needed; printable, whatever it holds.
 std::string shell_word(std::string_view text);
 
-/// Of each item its name, a member or name(item).
+/// The name of each item: a member or name(item).
 template <class Items>
 std::vector<std::string> names_of(const Items& items) {
     std::vector<std::string> names;

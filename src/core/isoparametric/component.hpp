@@ -13,7 +13,7 @@ struct Component {
     double off = 0;  ///< Evaluated::off
 };
 
-/// Of functions times `scale`.
+/// The sum of the component's values times the functions n, which are given times `scale`.
 template <class T>
 Ball<T> sum_of(std::size_t nodes, int scale, const std::array<Ball<T>, max_nodes>& n, const Component& c) {
     Ball<T> sum(0);

@@ -51,7 +51,7 @@ enum class JacobianSign : std::int8_t {
 inline constexpr int max_bisections = 18;
 /// With no bisection, `positive` and `negative` are told where coefficients alone prove them.
 JacobianSign jacobian_sign(const Reference& reference, const Places& places, int bisections = max_bisections);
-/// Of simplices alone.
+/// The same, for simplices alone.
 JacobianSign simplex_jacobian_sign(const Reference& reference, const Places& places, int bisections = max_bisections);
 
 /// 1 or -1 where the Jacobian is proved to have that sign; else 0.

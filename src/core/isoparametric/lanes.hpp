@@ -8,8 +8,8 @@ namespace barycert::core::isoparametric {
 
 inline constexpr std::size_t max_lanes = 16;
 
-/// Of hexahedra, and pyramids with their apex four times; of wedges, with nodes 0 1 2 0 3 4 5 3; of tetrahedra with ten
-/// nodes as VTK numbers them.
+/// Elements whose values lanes compute. `hexahedron` is also for pyramids, with their apex four times; a wedge is given by
+/// nodes 0 1 2 0 3 4 5 3; a tetrahedron has ten nodes as VTK numbers them.
 enum class LaneElement : std::uint8_t { hexahedron, wedge, tetrahedron };
 
 constexpr std::size_t lane_nodes(LaneElement element) {
