@@ -166,7 +166,7 @@ std::vector<Family> plain_families() {
          near_facet<13>},
         {"near-facet.1e-14", "the same at 1e-14", "U[-1,1), h = +-1e-14", sided, near_facet<14>},
         {"near-facet.1e-15", "the same at 1e-15", "U[-1,1), h = +-1e-15", sided, near_facet<15>},
-        // Of bad shape.
+        // Simplices of bad shape.
         {"sliver.1e-12", "flat cells: a small divisor magnifies every error", "height 1e-12, point fl(sum w_i v_i)",
          sided, sliver<12>},
         {"sliver.1e-13", "the same at 1e-13", "height 1e-13", sided, sliver<13>},

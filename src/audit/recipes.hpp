@@ -1,5 +1,5 @@
-/// What recipes share: simplices drawn from meshes (their cells, and faces and edges of these), and points made from
-/// vertices, in plain rounded arithmetic.
+/// Steps that recipes share: simplices drawn from meshes (their cells, and faces and edges of these), and points made
+/// from vertices, in plain rounded arithmetic.
 #pragma once
 
 #include "barycert/audit.hpp"

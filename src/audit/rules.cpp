@@ -58,7 +58,7 @@ void audit_rules(RuleAudit<Rule, Tally>& audit, const Families& families, std::s
     }
 }
 
-/// What is right; nothing where either answer is.
+/// The right answer; nothing where either answer is right.
 std::optional<double> exact_answer(SurfaceQuestion question, const SurfaceCase& c) {
     if (question == SurfaceQuestion::distance) return oracle_distance(c.triangles[0], c.point.data());
     if (question == SurfaceQuestion::meet) return oracle_meet(c.triangles[0], c.triangles[1]);

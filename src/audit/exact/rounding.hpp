@@ -83,7 +83,7 @@ Integer scaled(double x, int low) {
     }
 }
 
-/// What is known of the part of a number below its last kept bit.
+/// Position of the part of a number below its last kept bit, as far as it is known.
 enum class Tail : std::uint8_t {
     zero,
     positive,  ///< in (0, 1)

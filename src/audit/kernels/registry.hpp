@@ -8,7 +8,7 @@ namespace barycert::kernels {
 
 enum class Declares : bool { no, yes };
 
-/// What else there is of a formula.
+/// Further facts about a formula.
 struct More {
     WeightsFunction Variants::*variants = nullptr;  ///< compiled under other flags
     WeightsFunction single = nullptr;               ///< in single precision, `<name>.float32`

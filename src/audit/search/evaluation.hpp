@@ -43,7 +43,7 @@ inline Evaluation evaluate(const Kernel& kernel, const Case& c) {
     return e;
 }
 
-/// Those of witnesses, and the relative error.
+/// Reasons of witnesses, and the relative error.
 inline constexpr std::size_t search_reasons = witness_reasons + 1;
 
 constexpr std::string_view search_reason_name(std::size_t reason) {

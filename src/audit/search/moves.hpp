@@ -89,7 +89,7 @@ void wander(Case& c, base::Random& random, bool values);
 /// Asks for a case; nothing more may be asked once it returns null.
 using Ask = std::function<const Evaluation*(const Case&)>;
 
-/// What is to become zero, and the number that is moved for it.
+/// A quantity that is to become zero, and the number that is moved for it.
 struct Zero {
     std::size_t weight = 0;  ///< this weight,
     bool of_cell = false;    ///< or the determinant of the cell over the numerator of this weight

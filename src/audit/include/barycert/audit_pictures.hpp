@@ -1,5 +1,5 @@
-/// What the pictures of an audit show: signs around a triangle, kernels over the cells of a mesh, drift along
-/// triangles, and rules for texels.
+/// Pictures of an audit: signs around a triangle, kernels over the cells of a mesh, drift along triangles, and rules
+/// for texels.
 #pragma once
 
 #include "barycert/audit.hpp"
@@ -64,13 +64,13 @@ struct MeshMap : MeshFrame {
         std::vector<double> errors;
         std::uint64_t cases = 0, wrong = 0;  ///< with a finding
     };
-    /// Of those given that are for its cells: if they are more than max_kernels, the first of those that are no
-    /// variants (names with a second dot).
+    /// The given kernels that are for cells of this kind. If they are more than max_kernels: the first of those that
+    /// are no variants (names with a second dot).
     std::vector<OfKernel> kernels;
     std::size_t left_out = 0;  ///< how many more of these there are
 };
 
-/// Of the first meshes for whose cells there is a kernel. Points depend on the seed and the mesh alone.
+/// Returns maps of the first meshes for whose cells there is a kernel. Points depend on the seed and the mesh alone.
 std::vector<MeshMap> mesh_maps(const std::vector<Kernel>& kernels, const MeshSource& meshes, std::uint64_t seed,
                                int threads = 0);
 
@@ -85,7 +85,7 @@ struct DriftOptions {
     std::uint64_t seed = 1;
 };
 
-/// Of one kernel, over the cases of one size.
+/// Errors of one kernel over the cases of one size.
 struct DriftPoint {
     int size = 0;                  ///< of the box, in pixels
     std::uint64_t cases = 0;       ///< with a finite value

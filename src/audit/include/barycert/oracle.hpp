@@ -34,7 +34,7 @@ struct OracleAnswer {
     bool narrow = false;                 ///< machine words were wide enough (for counting; never changes an answer)
 };
 
-/// Of every degenerate case.
+/// The answer to every degenerate case.
 inline OracleAnswer degenerate_answer() {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     return {
@@ -106,8 +106,8 @@ struct GradientAnswer {
     std::array<double, 3> gradient{};  ///< correctly rounded; NaN if degenerate
 };
 
-/// Of the field with c.values at the vertices; the point has no part in it. Preconditions: triangle or tetrahedron,
-/// everything finite.
+/// Returns the gradient of the field with c.values at the vertices; ignores the point. Requires: triangle or
+/// tetrahedron, everything finite.
 GradientAnswer oracle_gradient(const Case& c);
 
 /// Quadratic interpolation on a straight-sided cell with nodes amid its edges, likewise: sum l_i (2 l_i - 1) f_i + sum
