@@ -22,7 +22,7 @@ struct Ticks {
 };
 Ticks round_ticks(double low, double high, int max);
 
-/// Of an axis of log10: powers of ten in [low, high], with 2 and 5 times each where they are few.
+/// Ticks of an axis of log10: powers of ten in [low, high], with 2 and 5 times each where they are few.
 std::vector<Tick> log_ticks(double low, double high);
 
 /// "⁻¹²": the number, rounded, as an exponent.

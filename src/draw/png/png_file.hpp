@@ -14,7 +14,7 @@ using Colour = std::array<std::uint8_t, 3>;  ///< red, green, blue, sRGB
 /// Libpng, and so most programs, reads no more pixels a side unless told to.
 inline constexpr std::size_t longest_png_side = 1000000;
 
-/// What the pixels are like, for the compression. The picture is the same.
+/// Kinds of pixels, for the compression. The picture is the same.
 enum class PngContent : std::uint8_t {
     few_colours,  ///< in runs: filters would only make more of them
     shades,       ///< that change little from pixel to pixel: libpng chooses a filter for each row

@@ -120,7 +120,7 @@ Result<Image> read_png(const std::string& path);
 /// Writes 8-bit RGBA in sRGB, whole or not at all. Error: as check_image; a side above a million; it cannot be written.
 Status write_png(const std::string& path, const Image& image);
 
-/// What lies beyond the picture.
+/// Rule for texels beyond the picture.
 enum class Wrap : std::uint8_t {
     clamp,   ///< its rim
     repeat,  ///< the picture again
@@ -220,7 +220,7 @@ Result<ClippedSegment> clip_segment(int dimension, std::span<const double> a, st
 Result<ClippedSegment> clip_segment(int dimension, std::span<const double> a, std::span<const double> b,
                                     const ClipBox& box);
 
-/// What became of a triangle.
+/// Fate of a triangle.
 enum class Clip : std::uint8_t {
     inside,   ///< all of it is inside
     cut,      ///< part of it
