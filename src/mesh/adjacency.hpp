@@ -35,7 +35,8 @@ struct CellFacet {
 /// Time and memory O(cells + nodes) where cells at a node are bounded; on all threads, whose number does not show.
 class FacetTable {
 public:
-    /// Of the cells for which use[cell] is not 0; of all if it is empty. Precondition: their indices are in range.
+    /// Makes the table of the cells for which use[cell] is not 0; of all cells if `use` is empty. Requires: their
+    /// indices are in range.
     explicit FacetTable(const Mesh& mesh, std::span<const std::uint8_t> use = {});
 
     std::size_t node_count() const { return begin_.size() - 1; }

@@ -5,7 +5,7 @@
 
 namespace barycert::mesh {
 
-/// Those that have a name here.
+/// VTK's cell types that this library names.
 enum VtkCell : std::uint8_t {
     vtk_vertex = 1,
     vtk_poly_vertex = 2,

@@ -9,7 +9,7 @@
 /// of highest number goes first. Where the ring is no simple polygon in that projection, the next axis is asked. Signs
 /// are exact; the normal is computed in double, in the order above, and so the same for both cells.
 ///
-/// Of a face that is plane and convex without flat corners these are the triangles at its node of lowest number.
+/// A face that is plane and convex, without flat corners, gets the triangles at its node of lowest number.
 #pragma once
 
 #include <array>

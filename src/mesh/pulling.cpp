@@ -266,8 +266,8 @@ private:
         return false;
     }
 
-    /// Of all parts, if each lies strictly on that side of its node, and the faces are cut from theirs of lowest
-    /// number; else zero.
+    /// The sign that all parts have, if each lies strictly on that side of its node, and the faces are cut from their
+    /// node of lowest number; else zero.
     Sign common_side(const Parts& parts, const Rings& rings, std::span<const Index> nodes) const {
         std::array<Index, 6> own{};
         for (const auto& ring : rings) {

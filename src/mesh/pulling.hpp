@@ -20,7 +20,7 @@ struct Shape {
     std::size_t corners = 0;      ///< 0: any number
     std::string_view faces = {};  ///< rings of corners in base 16, seen from outside; empty: the nodes tell
 };
-/// Of VTK's type of that number; of curved simplices their corners.
+/// Returns the shape of VTK's type of that number; of curved simplices the corners.
 Shape shape_of(std::uint8_t type);
 const std::vector<std::vector<Mesh::Index>>& rings_of(std::uint8_t type);
 
@@ -29,7 +29,7 @@ constexpr bool is_curved_simplex(std::uint8_t type) {
     return type == 22 || type == 24 || type == 69 || type == 71;
 }
 
-/// Of a simplex with so many nodes: 2 to 4; 0 if it is another.
+/// Returns the order, 2 to 4, of a simplex with so many nodes; 0 if no such order has as many.
 constexpr int simplex_order(int dimension, std::size_t nodes) {
     constexpr std::array<std::array<std::size_t, 3>, 2> counts{{{6, 10, 15}, {10, 20, 35}}};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -53,7 +53,7 @@ std::optional<std::size_t> cut_into_simplices(Mesh& mesh, std::span<const Mesh::
 /// In Shapes::inside, the part that stands for a cell that cannot be cut: it is degenerate, so no point lies in it.
 inline constexpr std::uint16_t uncut_part = 0xffff;
 
-/// Those parts; ascending.
+/// Returns those parts; ascending.
 std::vector<Mesh::Index> uncut_parts(const Mesh& mesh);
 
 /// Which cells cannot be cut, in words; empty if all can.

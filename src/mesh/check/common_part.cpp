@@ -170,8 +170,7 @@ CellContact common_part(Simplex simplex, const CellPair& cells, const Corners& a
     const int dimension = static_cast<int>(points.size()) - 1;
     CellContact contact{cells, points.size() == n, dimension, {}};
     if (points.empty()) return contact;
-    // What the two have in common is the convex hull of all points: the mean of some that span it is in its relative
-    // interior.
+    // The convex hull of all points is the common part: the mean of some that span it is in its relative interior.
     Point sum{{}, 1};
     for (const auto& [x, weight] : points) {
         for (std::size_t k = 0; k < 3; ++k) sum.x[k] = sum.x[k] * weight + x[k] * sum.weight;

@@ -46,7 +46,8 @@ private:
 /// order find what they need in cache.
 using Place = std::int32_t;
 
-/// What a step of a walk reads of a cell: half of a cache line. The last corner of a triangle repeats the first one.
+/// Data of a cell that a step of a walk reads: half of a cache line. The last corner of a triangle repeats the first
+/// one.
 struct alignas(32) CellRecord {
     std::array<Place, 4> node;
     std::array<Place, 4> next;  ///< the cell across the facet opposite to each corner, -1 where there is none

@@ -18,7 +18,7 @@ bool interiors_meet(int d, const Corners& a, const Corners& b);
 /// A cell as an item of candidates.hpp, its nodes by place.
 Item item_of(const CellIndex& index, Place cell);
 
-/// What a pair of an item and a cell settles.
+/// Which of an item and a cell a pair of them settles.
 enum class Decided : std::uint8_t { nothing, item, cell };
 
 /// use(i, cell) for each item i and each cell that may have a point in common with it beside the face of their common

@@ -14,7 +14,7 @@ namespace barycert::locate {
 /// The bins that hold points. A bin is a code: its places on the axes in one byte each, x in the lowest one.
 class PointBins {
 public:
-    /// Of points with d coordinates, all finite; at least one point.
+    /// Requires: points with d coordinates, all finite; at least one point.
     PointBins(std::size_t d, std::span<const double> points);
 
     std::uint32_t code(const double* at) const {

@@ -27,7 +27,7 @@ public:
                   }};
     }
 
-    /// Those of a node, by ascending cell of the mesh.
+    /// The cells at a node, ascending by their numbers in the mesh.
     std::span<const Place> of(Place node) const { return cells_[static_cast<std::size_t>(node)]; }
     std::size_t bytes() const { return cells_.bytes(); }
 
@@ -113,7 +113,7 @@ public:
     };
     /// By place in this order.
     const Entry* entries() const { return order_.data(); }
-    /// Those of places [first, first + count) in this order. The number of each is its place.
+    /// Copies the points at places [first, first + count) in this order. The number of each is its place.
     void copy(std::size_t first, std::size_t count, PointRecord* to) const;
 
     /// use(i, place of point i in this order) for every point, in the order of the caller; the place of a point left
@@ -165,7 +165,7 @@ private:
 struct LocatorData {
     static const LocatorData& of(const Locator& locator) { return *locator.data_; }
 
-    /// What walks need besides `index.cells[].next`.
+    /// Data that walks need besides `index.cells[].next`.
     struct Proved {
         std::vector<Place> degenerate;
         Proof proof;
@@ -273,7 +273,8 @@ private:
     double filled() const {
         return filled_.get([&] { return filled_share(index); });
     }
-    /// Of few cells an occupancy takes as long as of a certain number.
+    /// The number of cells that the cost of an occupancy grows with: one of few cells takes as long as one of
+    /// least_cells.
     double cells_of_occupancy() const {
         return static_cast<double>(std::max(index.cell_count(), Occupancy::least_cells));
     }

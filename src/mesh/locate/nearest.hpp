@@ -22,7 +22,7 @@ public:
     explicit NearestTree(const CellIndex& index, const MappedCells* mapped = nullptr);
 
     std::size_t levels() const { return begin_.size() - 1; }
-    /// Of a level, the least one 0.
+    /// The number of boxes on a level; the lowest level is 0.
     std::size_t count(std::size_t level) const { return begin_[level + 1] - begin_[level]; }
     const Box& box(std::size_t level, std::size_t i) const { return boxes_[begin_[level] + i]; }
     std::size_t bytes() const { return boxes_.size() * sizeof(Box); }

@@ -12,7 +12,7 @@ namespace barycert::locate {
 class Occupancy {
 public:
     static constexpr int word_bits = 5;  ///< of them, bins along the first axis make a word
-    /// Of fewer cells one is as large, and takes as long to make, as of so many.
+    /// An occupancy of fewer cells is as large, and takes as long to make, as one of so many.
     static constexpr std::size_t least_cells = 64;
 
     /// How much it tells: `coarse`, from the boxes of cells alone, with bins about as large as cells; `fine`, with far

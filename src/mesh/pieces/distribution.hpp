@@ -11,7 +11,7 @@ struct Points {
     std::function<void(std::size_t, double*)> at;  ///< sets the three coordinates of a point; they need not be finite
 };
 
-/// What an engine has of each point, as bytes: of this rank's points first, then of those that it is asked for.
+/// Data that an engine has of each point, as bytes: first of this rank's points, then of those that it is asked for.
 class Tuples {
 public:
     virtual ~Tuples() = default;

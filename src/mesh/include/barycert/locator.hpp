@@ -10,7 +10,7 @@
 /// faces are told by enclosures of 250 bits and rational numbers. That curved cells do not overlap is not proved: a
 /// point inside the cell whose straight simplex has it is not looked for elsewhere.
 ///
-/// What holds (each law is a test of that name in tests/locate):
+/// Laws (each is a test of that name in tests/locate):
 ///   L1  A point in the union of the closed cells of non-zero volume is always found, and its owner is the lowest cell
 ///       index among all cells that contain it, whatever their orientation, overlapping cells included. `locate_all`
 ///       returns all of them.
@@ -78,7 +78,7 @@ enum class Prove : std::uint8_t {
     never,  ///< find no neighbours, and test candidates everywhere
 };
 
-/// What function cells that are no simplices (Mesh::shapes) have, and with it, where their sides are.
+/// Interpolating function of cells that are no simplices (Mesh::shapes). It decides, too, where their sides are.
 enum class CellInterpolation : std::uint8_t {
     linear,  ///< linear on each part: continuous, with flat triangles for sides
     /// Voxels, pixels, hexahedra, wedges, pyramids and quadrilaterals: that of the isoparametric map, products of
@@ -95,9 +95,9 @@ constexpr std::string_view name(CellInterpolation i) {
 struct BuildOptions {
     Prove prove = Prove::at_once;
     CellInterpolation interpolation = CellInterpolation::linear;
-    /// Of second-order cells whose mid-edge nodes are off the middle (CurvedCells), and simplices of order 3 and 4.
-    /// `straight`: they are taken with straight sides; those of order 3 and 4, and of order 2 beside cells of other
-    /// shapes, are linear then. `refuse` is as isoparametric: see measure_curved().
+    /// How to take second-order cells whose mid-edge nodes are off the middle (CurvedCells), and simplices of order 3
+    /// and 4. `straight`: with straight sides; then cells of order 3 and 4, and of order 2 beside cells of other
+    /// shapes, are linear. `refuse` is as isoparametric: see measure_curved().
     Curved curved = Curved::isoparametric;
     int threads = 0;  ///< 0: as many as the machine has; the index is the same for any number
     std::function<void(const char* stage)> progress = {};  ///< called as each stage begins

@@ -30,7 +30,7 @@ struct Column {
 struct ColumnFormat {
     std::string name;
     Column::Type type = Column::Type::integer;
-    /// Of text: the longest that may come, in bytes; and in characters, if all are UTF-8, else 0. NPY files need them.
+    /// The longest text that may come, in bytes; and in characters if all are UTF-8, else 0. NPY files need them.
     std::size_t max_bytes = 0, max_characters = 0;
 
     friend bool operator==(const ColumnFormat&, const ColumnFormat&) = default;
@@ -88,8 +88,8 @@ struct Mesh {
     std::vector<double> points;  ///< dimension coordinates a node
     std::vector<Index> cells;    ///< dimension + 1 vertices a cell
     Shapes shapes;               ///< what `cells` were cut from; empty if the file has simplices
-    /// Of a grid along axes whose nodes and cells are not listed (ReadOptions::list_grids), coordinates along each,
-    /// increasing; the first runs fastest. Then points, cells and shapes are empty. Else empty.
+    /// Increasing coordinates along each axis of a grid whose nodes and cells are not listed (ReadOptions::list_grids);
+    /// the first axis runs fastest. Then points, cells and shapes are empty. Else these are empty.
     std::array<std::vector<double>, 3> axes;
 
     /// Nodes at mid-edges in the order `vtk` whatever the file's, 6 a tetrahedron or 3 a triangle; empty if linear.
@@ -116,7 +116,7 @@ struct Mesh {
 
     int index_base = 0;  ///< 0 or 1: the base of the file it came from, used again by the writer
 
-    /// What users know the cell as.
+    /// The number by which users know the cell.
     Index cell_number(Index cell) const {
         return cell_numbers.empty() || cell < 0 ? cell : cell_numbers[static_cast<std::size_t>(cell)];
     }
@@ -172,7 +172,7 @@ CurvedCells curved_cells(const Mesh& mesh, std::vector<std::uint8_t>* each = nul
 /// In a sentence or more, "; " between; empty if all sides are straight, and no cell is taken by its corners.
 std::string message(const CurvedCells& curved);
 
-/// What becomes of curved cells. `exact`: as isoparametric, with each node as it is, off by rounding or not.
+/// Ways to take curved cells. `exact`: as isoparametric, with each node as it is, off by rounding or not.
 enum class Curved : std::uint8_t { isoparametric, straight, refuse, exact };
 
 /// Error, with Curved::refuse: there are curved cells. `file` is what the user calls the mesh.

@@ -3,7 +3,7 @@
 /// Input: a mesh with fields of its nodes or cells, and points in the unit of the mesh. Output: a Table, with the
 /// owner, the feature and a value for each component of each field at each point.
 ///
-/// What holds (each law is a test of that name in tests/sample):
+/// Laws (each is a test of that name in tests/sample):
 ///   V1  A value of a point field is the exact interpolation in the owner, linear, or quadratic on cells of second
 ///       order, rounded once to nearest, ties to even. A value of a cell field is that of the owner.
 ///   V2  Where cells meet in a proper mesh, point fields have the same bits from every cell that holds the point. A
@@ -19,8 +19,8 @@
 ///       of points inside, on boundaries and outside.
 /// With Rounding::plain, owners and features are exact as well; values are computed in plain double.
 ///
-/// What can be made of fields, by name where fields are named; a field that has such a name itself goes before. NAME
-/// may be any of these again:
+/// Quantities are made of fields by expressions, wherever a field is named; a field that has the expression as its name
+/// goes before. NAME may be an expression again:
 ///   NAME.x, NAME.2  a component by its axis or number.
 ///   grad(NAME)      of a field of nodes: the gradient of the function that is interpolated, in the owner. Where cells
 ///                   meet it jumps, and is that of the lowest cell. Columns grad(NAME).0, .1, ...: the derivatives of
@@ -47,7 +47,7 @@ namespace sample {
 struct SamplerData;
 }
 
-/// What a point outside every cell gets.
+/// Values that a point outside every cell gets.
 enum class Outside : std::uint8_t {
     nan,
     error,    ///< the call returns an Error that names the first such point
@@ -72,7 +72,7 @@ struct SampleOptions {
     NonfinitePoints nonfinite_points = NonfinitePoints::error;
 };
 
-/// What is made of a field.
+/// A quantity made of a field.
 struct QuantityStep {
     enum class Kind : std::uint8_t {
         component,  ///< one of its components
@@ -114,8 +114,8 @@ public:
 
     const Locator& locator() const;
 
-    /// Of a row: those of the point fields first, then those of the cell fields, then lengths of point fields and
-    /// gradients on cells of second order.
+    /// The fields of a row: point fields first, then cell fields, then lengths of point fields and gradients on cells
+    /// of second order.
     const std::vector<TableField>& fields() const;
     const std::vector<std::string>& columns() const;  ///< column_names(fields())
 

@@ -4,7 +4,7 @@
 /// area is the segment or point that it is. Output: on which triangle a point lies, or on which side; the nearest
 /// triangle and point of it; where a segment or ray meets the surface.
 ///
-/// What holds, for every finite point (each law is a test of that name in tests/locate):
+/// Laws, for every finite point (each is a test of that name in tests/locate):
 ///   W1  A point that lies on a triangle is always found there, on its face, edge or vertex; of several triangles it is
 ///       the lowest.
 ///   W2  The winding number of every other point is exact: how many times the surface goes around it, the sum of what
@@ -36,7 +36,7 @@ namespace locate {
 struct SurfaceData;
 }
 
-/// What there is to tell the two sides of a surface apart (W2): of all its shells the least that one has.
+/// Evidence that tells the two sides of a surface apart (W2): the weakest that one of its shells has.
 enum class Turned : std::uint8_t {
     open,     ///< there is no inside
     even,     ///< parity
@@ -71,7 +71,7 @@ struct SurfaceNearest : Nearest {
 /// A triangle that a segment meets.
 struct SurfaceHit {
     Mesh::Index triangle = -1;
-    /// Of the triangle; `degenerate`: the segment lies in its plane, or along one of zero area.
+    /// The part of the triangle that is hit; `degenerate`: the segment lies in its plane, or along one of zero area.
     Feature feature = Feature::outside;
     double parameter = 0;  ///< 0 at the first end, 1 at the second; correctly rounded; of several the first
     int side = 0;  ///< 1 if it leaves on the side of the normal, -1 on the other, 0 in the plane or without a normal

@@ -44,7 +44,7 @@ struct WayCounts {
     void add(const WayCounts& other);
 };
 
-/// What points with a coordinate that is NaN or infinite are.
+/// Rule for points with a coordinate that is NaN or infinite.
 enum class NonfinitePoints : std::uint8_t {
     error,
     nan,  ///< points outside, with NaN for values whatever points outside get, and counted

@@ -116,7 +116,7 @@ public:
     /// Nodes of a mapped cell, and its shape functions at the point, each rounded once; none if they are not found.
     mesh::CellMaps::Nodes weights(Mesh::Index cell, const double* point, double* out) const;
 
-    // Of points outside, whose nearest point is on a side (nearest_side.hpp).
+    // Values and weights at points outside whose nearest point is on a side (nearest_side.hpp).
 
     /// As evaluate(), at that point. NaN where a value at a node of the side is not finite.
     core::isoparametric::Evaluated evaluate_on_side(PointOnSide& on, const std::vector<const Field*>& fields,
@@ -139,8 +139,8 @@ private:
         std::uint8_t sides;  ///< a bit for each that is not flat
         bool uncut;          ///< no part of it holds a point
     };
-    /// What the sides of a cell that is mapped say of a point: if it is in the tetrahedron of one that is warped; of a
-    /// cell without parts, if it is in the cell.
+    /// Where the sides of a mapped cell put a point: by a warped side, if the point is in the side's tetrahedron; for a
+    /// cell without parts, if the point is in the cell.
     struct AtSides {
         std::size_t whole;
         bool outside;
@@ -190,8 +190,8 @@ private:
     bool products_, curves_ = false;
     std::vector<Mesh::Index> whole_;  ///< shape of each cell
     std::vector<std::int8_t> sign_;   ///< of each Jacobian; 0: no map
-    // Of cells on lanes but for simplices, in the order of space, places of their nodes in the index; and of each place
-    // of a cell there twice its number among them, and one more of a wedge: -1, it is none.
+    // Cells on lanes that are no simplices, in the order of space: places of their nodes in the index. For each place
+    // of a cell: twice its number among them, plus one if it is a wedge; -1 if it is none of them.
     struct alignas(32) LaneNodes {
         std::array<Place, 8> at;
     };

@@ -13,7 +13,7 @@ using index::PlacedFacet, index::Ridge, index::Triangles;
 
 struct SurfaceData;
 
-/// What triangles count in winding numbers (side_rules.cpp).
+/// Numbers that triangles count in winding numbers (side_rules.cpp).
 struct SideCounts {
     SideRules rules;
     /// By place: how many times a triangle counts as it is turned, or `parity`; empty: each once.
@@ -115,7 +115,7 @@ struct NearGroups {
     std::size_t bytes() const { return triangles.bytes() + boxes.bytes() + order.size() * sizeof(std::uint32_t); }
 };
 
-/// What is left to be decided exactly: triangles, and how near a point of each may be, in squares.
+/// Triangles that are left to be decided exactly, and how near a point of each may be, in squares.
 struct NearCandidates {
     std::vector<std::uint32_t> number;  ///< in NearGroups::order
     std::vector<double> low;
@@ -178,8 +178,8 @@ struct SurfaceData {
     void nearest_on(Mesh::Index triangle, const double* p, SurfaceNearest& to) const;
     std::vector<SurfaceHit> hits(const double* a, const double* b, bool ray) const;
 
-    /// What the triangles between p and the end of a ray along the first axis, which has the sum `side`, tell of p: the
-    /// lowest that holds it, or its own sum.
+    /// Locates p by the triangles between p and the end of a ray along the first axis, which has the sum `side`: on the
+    /// lowest triangle that holds it, or by its own sum.
     SurfaceLocation on_the_way(const double* p, const double* end, SideSum& side) const;
     SurfaceLocation as_location(const SideSum& side) const {
         const int winding = sides.rules.turned == Turned::open ? 0 : side.sum();

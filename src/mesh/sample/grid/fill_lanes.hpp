@@ -43,7 +43,7 @@ constexpr bool lacks_value(Feature f) {
 /// The points of some layers (2D: lines) of a grid, line after line. Each array has room for a vector more.
 struct FillTarget {
     Mesh::Index* owner = nullptr;  ///< -1: none yet
-    /// Of a point with an owner: outside means interior. Of others: outside.
+    /// Feature of a point with an owner, where outside means interior; outside for a point without one.
     Feature* feature = nullptr;
     double* values = nullptr;
     std::size_t stride = 1;  ///< numbers a point in `values`, of which the first are the components of the nodes
@@ -58,7 +58,7 @@ struct FillTarget {
     bool kept(std::size_t point, Mesh::Index cell) const { return owner[point] >= 0 && owner[point] < cell; }
 };
 
-/// What cells fill in: the points of a grid, by the components of the nodes. Cells are linear. If there are no
+/// Data from which cells fill in the points of a grid: the components of the nodes. Cells are linear. If there are no
 /// components, values are missing everywhere.
 struct FillSource {
     const locate::CellIndex& index;

@@ -11,7 +11,7 @@ namespace barycert::sample {
 /// The field of that name; nullptr if there is none.
 const Field* field_named(const std::vector<Field>& fields, std::string_view name);
 
-/// Those of nodes, then those of cells.
+/// The names of fields of nodes, then of fields of cells.
 std::vector<std::string> all_field_names(const Mesh& mesh);
 
 /// Calls visit(name) for each of the names between commas, until it returns false.
@@ -25,7 +25,7 @@ bool for_names(std::string_view text, Visit visit) {
     }
 }
 
-/// Of the columns.
+/// The name of the choice's columns.
 inline const std::string& name_of(const FieldChoice& choice) {
     return choice.name.empty() ? choice.field->name : choice.name;
 }
@@ -62,7 +62,7 @@ void make_fields(const Mesh& mesh, FieldChoice& choice, std::size_t count, std::
 /// what no field has, the gradient on cells of second order.
 Status make_all_fields(const Mesh& mesh, std::vector<FieldChoice>& choices, std::deque<Field>& made, Notes& notes);
 
-/// What `name` means, if it is one number a node or cell. Error: several numbers, or no such field.
+/// Returns the choice that `name` means, if it is one number a node or cell. Error: several numbers, or no such field.
 Result<FieldChoice> number_named(const Mesh& mesh, const std::string& name);
 
 /// sqrt(sum v_i^2), within 0.51 units in the last place of the exact length where that is not subnormal, else within
