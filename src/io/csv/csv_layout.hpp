@@ -1,4 +1,4 @@
-/// What the first line of a CSV file tells about the others, and rows read so. Errors are thrown as Exceptions.
+/// Layout of a CSV file, which its first line decides, and rows read by it. Errors are thrown as Exceptions.
 #pragma once
 
 #include "barycert/io.hpp"
@@ -128,7 +128,7 @@ inline std::string separator_name(char separator) {
 void check_cut(const FieldCutter& cutter, std::string_view line, std::size_t count, const CsvLayout& layout,
                const LinePlace& place);
 
-/// What became of whole lines; the last of the file may lack its end.
+/// Results of whole lines; the last line of the file may lack its end.
 struct CsvPiece {
     std::vector<double> points;   ///< of the lines before the bad one
     std::vector<Column> carried;  ///< likewise

@@ -60,7 +60,7 @@ struct MshSection {
     std::string_view body;
 };
 
-/// Of which a file has one at most.
+/// Sections that a file has once at most.
 inline constexpr std::array<std::string_view, 7> once_sections{
     "MeshFormat", "PhysicalNames", "Entities", "PartitionedEntities", "Nodes", "ParametricNodes", "Elements"};
 
@@ -261,7 +261,7 @@ public:
     void move_to(const char* at) { at_ = at; }
 
 private:
-    /// What take(row, number) takes, where a row begins here.
+    /// Reads what take(row, number) takes, where a row begins here.
     template <class Number, class Take>
     Number step(const char* name, const Take& take);
 

@@ -70,7 +70,7 @@ inline void append_map_rows(const TableView& from, int dimension, std::size_t fi
     append(from.features, 1, to.features);
 }
 
-/// What a row that no map can hold should have had, or nullptr if it can: one text for writer and reader.
+/// Says what a row that no map can hold should have had; nullptr if a map can hold it. One text for writer and reader.
 inline const char* map_row_fault(const double* point, int dimension, Mesh::Index cell, unsigned feature,
                                  std::uint64_t cell_count) {
     for (int axis = 0; axis < dimension; ++axis) {

@@ -17,7 +17,7 @@ double half(std::uint16_t bits) {
     return (bits & 0x8000U) != 0 ? -x : x;
 }
 
-/// Of types whose kind and size are known: neither halves nor booleans.
+/// Requires: a type whose kind and size are known; neither halves nor booleans.
 NumberType number_type(const NpyType& type) {
     if (type.kind == 'f') return type.is_double() ? NumberType::float64 : NumberType::float32;
     const int first = static_cast<int>(type.kind == 'i' ? NumberType::int8 : NumberType::uint8);

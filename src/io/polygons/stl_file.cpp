@@ -61,7 +61,7 @@ std::size_t binary_size(std::string_view bytes) {
     return header_bytes + record_bytes * count;
 }
 
-/// Of a file of at least binary_size() bytes; what follows is left out.
+/// Reads a file of at least binary_size() bytes; leaves out what follows.
 Polygons read_binary(PlcText& in) {
     const std::string_view bytes = in.rest();
     const std::size_t count = (binary_size(bytes) - header_bytes) / record_bytes;

@@ -101,7 +101,8 @@ struct Complaint {
     std::string expected, remedy;
 };
 
-/// Of a field that scan_real() refuses. `finite`: the remedy for nan and inf; `separators`: for what is nothing known.
+/// Returns the complaint about a field that scan_real() refuses. `finite`: the remedy for nan and inf; `separators`:
+/// the remedy where nothing is known.
 Complaint about_real(std::string_view field, const std::string& finite, const std::string& separators);
 
 /// A place in the text, moved by each success and left near the fault by a failure.
