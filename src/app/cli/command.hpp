@@ -1,4 +1,4 @@
-/// What all subcommands do around their job: exit codes, what is said on stderr, how the program is called.
+/// Steps of all subcommands around their job: exit codes, messages on stderr, the name by which the program is called.
 #pragma once
 
 #include "barycert/result.hpp"

@@ -67,7 +67,7 @@ Mesh open_mesh(const MeshJob& job, int threads, const StepChoice& step, CurvedCe
         .faces = false, .neighbours = false, .threads = threads, .step = step, .list_grids = list_grids};
     Mesh mesh = read_mesh(job.mesh, options).value();
     const CurvedCells straight = measure_curved(mesh, job.mesh, job.curved).value();
-    // Of steps, that with the largest deviation.
+    // Keeps, of several steps, the one with the largest deviation.
     if (straight.max_deviation >= curved.max_deviation) curved = straight;
     return mesh;
 }

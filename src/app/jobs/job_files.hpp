@@ -50,7 +50,8 @@ using base::counted;
 
 // Series: fields of which there is a file for each step.
 
-/// What the * of its files stands for, or its time in a .pvd file, and the file of each series; or a step of the mesh.
+/// A step of series: what the * of their files stands for, or the time in a .pvd file, and the file of each series; or
+/// a step of the mesh.
 struct Step {
     std::string label;
     std::vector<FieldFile> files = {};
@@ -105,9 +106,9 @@ inline void check_outputs(const MeshJob& job, const std::vector<base::NamedFile>
     base::check_outputs(inputs, std::move(outputs)).value();
 }
 
-/// What can be known of files before the work: of a job with those outputs and, besides the mesh and fields, those
-/// inputs; `unread`: inputs, too, but who reads them tells what is wrong. Refused: an output that is an input or
-/// another output, or cannot be written; an input that cannot be read.
+/// Checks, before the work, what can be known of the files of a job with those outputs and, besides the mesh and
+/// fields, those inputs. `unread`: inputs, too, but their readers tell what is wrong with them. Error: an output that
+/// is an input or another output, or cannot be written; an input that cannot be read.
 void check_files(const MeshJob& job, std::vector<base::NamedFile> more_inputs, std::vector<base::NamedFile> outputs,
                  const std::vector<base::NamedFile>& unread = {});
 

@@ -288,7 +288,7 @@ void check_job(const ResampleJob& job, const std::vector<jobs::Step>& steps) {
                       base::named_files("job.output", outputs));
 }
 
-/// What its reader told, and the fields of nodes that the sampled ones replace.
+/// Notes what the other mesh's reader told, and the fields of nodes that the sampled ones replace.
 void note_the_other(SampledMesh& mesh, const ResampleJob& job, const Mesh& other) {
     Notes& notes = mesh.report.notes;
     notes.insert(notes.end(), other.notes.begin(), other.notes.end());

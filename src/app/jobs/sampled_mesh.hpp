@@ -97,13 +97,13 @@ public:
         }
     }
 
-    /// What the rows of this job have, without labels.
+    /// The format of this job's rows, without labels.
     TableFormat format() const;
 
-    /// Those that are sampled.
+    /// The fields that are sampled.
     const std::vector<FieldChoice>& fields() const { return fields_; }
 
-    /// Those of cells that the job asked for.
+    /// The labels of cells that the job asked for.
     const std::vector<const Column*>& labels() const { return labels_; }
 
 private:

@@ -122,7 +122,7 @@ inline SampleOptions without_refusal(SampleOptions options) {
     return options;
 }
 
-/// That `what` ("point 7"), at `where`, is outside, and none may be.
+/// Returns the error that `what` ("point 7"), at `where`, is outside, and none may be.
 Error outside_error(const std::string& what, std::span<const double> where, const std::string& file);
 
 std::uint64_t count_nan(const TableView& rows);

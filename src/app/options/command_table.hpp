@@ -22,7 +22,7 @@ struct OptionEntry {
     bool repeats = false;      ///< may be given several times, or an operand several words
     bool may_be_bare = false;  ///< the value may be left out
 
-    // What completes the value.
+    // Completions of the value.
     std::vector<std::string> words;  ///< these
     bool files = false;              ///< names of files
 

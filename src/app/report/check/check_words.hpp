@@ -16,7 +16,7 @@ struct ConditionRow {
 };
 std::vector<ConditionRow> condition_rows(const CheckReport& report, const Mesh& mesh);
 
-/// What the report counts: cells, triangles, or facets of a PLC.
+/// The word for what the report counts: cells, triangles, or facets of a PLC.
 inline const char* cell_word(const CheckReport& report) {
     return !report.surface ? "cell" : report.surface->plc ? "facet" : "triangle";
 }
@@ -60,7 +60,7 @@ std::vector<std::string> delaunay_sentences(const CheckReport& report);
 /// The outcome, distances, missing nodes, and as many violated facets as fit in `room`. Requires `conformity`.
 std::vector<std::string> conformity_sentences(const CheckReport& report, std::size_t room);
 
-/// What was done to a mesh, a line each.
+/// Describes what was done to a mesh, a line each.
 std::vector<std::string> fix_sentences(const FixedMesh& fixed);
 
 }  // namespace barycert::report
