@@ -123,7 +123,7 @@ Kernel kernel_of(Simplex simplex, const std::string& name, bool declares, std::o
     return kernel;
 }
 
-/// What was chosen by names, or an Error that says what lists them in Python.
+/// Returns what was chosen by names, or throws an Error that says what lists the names in Python.
 template <class T>
 T named(Result<T> chosen, const char* lists) {
     if (chosen) return std::move(*chosen);

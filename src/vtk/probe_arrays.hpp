@@ -34,7 +34,7 @@ public:
     /// Gives all of them that many tuples, all zero; real numbers are `outside`.
     void allocate(vtkIdType points, double outside);
 
-    /// What a sampler is to sample, in the order of its columns. Refers to this object.
+    /// The fields to sample, in the order of the columns. They refer to this object.
     std::vector<FieldChoice> choices() const {
         std::vector<FieldChoice> all;
         for (const Field& field : fields_) all.push_back({.field = &field});
