@@ -1,4 +1,4 @@
-// What single calls of the exact core take where integers must answer: up to two limbs a number, and at the full spread
+// Times of single calls of the exact core where integers must answer: up to two limbs a number, and at the full spread
 // of exponents, where they are widest. Answers are verified elsewhere (tests/laws); here only that there is one.
 #include <algorithm>
 #include <cstdio>

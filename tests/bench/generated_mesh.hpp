@@ -17,7 +17,7 @@ namespace barycert::bench {
 /// Precondition: 1 <= n <= 700, so that indices fit.
 Mesh jittered_cube(int n, std::uint64_t seed);
 
-/// What n^3 lattice cubes are cut into. All fit together: a face of four nodes is one on both of its sides.
+/// Cells into which n^3 lattice cubes are cut. All fit together: a face of four nodes is one on both of its sides.
 enum class CubeCells : std::uint8_t {
     hexahedra,
     wedges,    ///< two a cube, their triangles below and above

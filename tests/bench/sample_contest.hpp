@@ -8,7 +8,8 @@
 
 namespace barycert::bench {
 
-/// Of a run: by the clock, and the processor's own of all threads, which does not count what others on the machine do.
+/// Times of a run: by the clock, and the processor's own of all threads, which does not count what others on the
+/// machine do.
 struct Seconds {
     double wall = 0, cpu = 0;
 };

@@ -232,8 +232,8 @@ TEST(Sides, ByHand) {
     for (const double* const p : {corner, a, b, c, d}) EXPECT_EQ(insphere(a, b, c, d, p), Sign::zero);
 }
 
-// What predicates.hpp says of these: the product with the orientation is zero, the sign alone tells sides of a line or
-// plane, if anything.
+// The statements of predicates.hpp about these: the product with the orientation is zero, the sign alone tells sides of
+// a line or plane, if anything.
 TEST(Sides, OfFlatSimplices) {
     const double a[2] = {0, 0}, b[2] = {1, 1}, c[2] = {3, 3}, above[2] = {0, 1}, below[2] = {1, 0}, on[2] = {7, 7};
     const Sign side = incircle(a, b, c, above);

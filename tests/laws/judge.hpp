@@ -95,7 +95,7 @@ inline std::string describe(const Subject& s, std::uint64_t index, const Case& c
     return text;
 }
 
-/// What came of a comparison.
+/// Results of a comparison.
 struct Tally {
     std::uint64_t cases = 0;
     std::uint64_t disagreements = 0;

@@ -106,7 +106,7 @@ function poorContrast() {
   return Array.from(poor, ([what, contrast]) => `${what} ${contrast}`);
 }
 
-/// What any reader of the page's structure asks for.
+/// Checks what any reader of the page's structure asks for.
 function structure() {
   const wrong = [];
   if (document.documentElement.lang !== "en") wrong.push("no language");
