@@ -5,7 +5,15 @@
 #include <new>
 
 #include "barycert/environment.hpp"
-#include "barycert/io.hpp"
+#include "barycert/gmsh_files.hpp"
+#include "barycert/mesh_files.hpp"
+#include "barycert/plc_files.hpp"
+#include "barycert/point_files.hpp"
+#include "barycert/series.hpp"
+#include "barycert/surface_files.hpp"
+#include "barycert/table_files.hpp"
+#include "barycert/tetgen_files.hpp"
+#include "barycert/vtk_files.hpp"
 #include "core/base/text.hpp"
 #include "files/input_file.hpp"
 #include "files/suffix.hpp"

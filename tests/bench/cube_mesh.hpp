@@ -1,7 +1,15 @@
 /// The unit cube as the benchmarks of VTK's filters take it.
 #pragma once
 
-#include "barycert/io.hpp"
+#include "barycert/gmsh_files.hpp"
+#include "barycert/mesh_files.hpp"
+#include "barycert/plc_files.hpp"
+#include "barycert/point_files.hpp"
+#include "barycert/series.hpp"
+#include "barycert/surface_files.hpp"
+#include "barycert/table_files.hpp"
+#include "barycert/tetgen_files.hpp"
+#include "barycert/vtk_files.hpp"
 #include "generated_mesh.hpp"
 #ifdef BARYCERT_WITH_TETGEN
 #include "large_mesh.hpp"

@@ -6,7 +6,24 @@
 #include <vector>
 
 #include "barycert/check.hpp"
-#include "barycert/io.hpp"
+#include "barycert/certificate.hpp"
+#include "barycert/check_results.hpp"
+#include "barycert/defect.hpp"
+#include "barycert/fix.hpp"
+#include "barycert/measures.hpp"
+#include "barycert/not_finite.hpp"
+#include "barycert/surface_report.hpp"
+#include "barycert/plc.hpp"
+#include "barycert/surface.hpp"
+#include "barycert/gmsh_files.hpp"
+#include "barycert/mesh_files.hpp"
+#include "barycert/plc_files.hpp"
+#include "barycert/point_files.hpp"
+#include "barycert/series.hpp"
+#include "barycert/surface_files.hpp"
+#include "barycert/table_files.hpp"
+#include "barycert/tetgen_files.hpp"
+#include "barycert/vtk_files.hpp"
 
 namespace barycert::report_test {
 

@@ -1,6 +1,29 @@
 // An audit against an earlier one: the same is the same, one wrong case more is told, other cases are not compared.
 
 #include "barycert/audit.hpp"
+#include "barycert/baseline.hpp"
+#include "barycert/choices.hpp"
+#include "barycert/family.hpp"
+#include "barycert/finding.hpp"
+#include "barycert/inverse_rules.hpp"
+#include "barycert/rule_audit.hpp"
+#include "barycert/statistics.hpp"
+#include "barycert/surface_rules.hpp"
+#include "barycert/threshold.hpp"
+#include "barycert/witness.hpp"
+#include "barycert/check.hpp"
+#include "barycert/certificate.hpp"
+#include "barycert/check_results.hpp"
+#include "barycert/defect.hpp"
+#include "barycert/fix.hpp"
+#include "barycert/measures.hpp"
+#include "barycert/not_finite.hpp"
+#include "barycert/surface_report.hpp"
+#include "barycert/plc.hpp"
+#include "barycert/surface.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/kernels.hpp"
+#include "barycert/oracle.hpp"
 
 #include <gtest/gtest.h>
 

@@ -18,7 +18,15 @@
 #include <vtkStructuredGrid.h>
 #include <vtkXMLDataSetWriter.h>
 
-#include "barycert/io.hpp"
+#include "barycert/gmsh_files.hpp"
+#include "barycert/mesh_files.hpp"
+#include "barycert/plc_files.hpp"
+#include "barycert/point_files.hpp"
+#include "barycert/series.hpp"
+#include "barycert/surface_files.hpp"
+#include "barycert/table_files.hpp"
+#include "barycert/tetgen_files.hpp"
+#include "barycert/vtk_files.hpp"
 #include "barycert/oracle.hpp"
 #include "barycert/sampler.hpp"
 #include "tests/locate/judge.hpp"

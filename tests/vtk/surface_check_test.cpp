@@ -23,6 +23,15 @@
 #include <vtkUnsignedCharArray.h>
 
 #include "barycert/check.hpp"
+#include "barycert/certificate.hpp"
+#include "barycert/check_results.hpp"
+#include "barycert/defect.hpp"
+#include "barycert/fix.hpp"
+#include "barycert/measures.hpp"
+#include "barycert/not_finite.hpp"
+#include "barycert/surface_report.hpp"
+#include "barycert/plc.hpp"
+#include "barycert/surface.hpp"
 #include "tests/check/surfaces.hpp"
 #include "tests/vtk/grids.hpp"
 #include "vtkBarycertCheck.h"

@@ -1,7 +1,15 @@
 // barycert-audit reads the files of TetGen and Triangle alone: these stand for those of barycert::io, which it does not
 // link.
 
-#include "barycert/io.hpp"
+#include "barycert/gmsh_files.hpp"
+#include "barycert/mesh_files.hpp"
+#include "barycert/plc_files.hpp"
+#include "barycert/point_files.hpp"
+#include "barycert/series.hpp"
+#include "barycert/surface_files.hpp"
+#include "barycert/table_files.hpp"
+#include "barycert/tetgen_files.hpp"
+#include "barycert/vtk_files.hpp"
 #include "files/suffix.hpp"
 
 namespace barycert {

@@ -4,7 +4,34 @@
 #include <algorithm>
 #include <deque>
 
-#include "barycert/jobs.hpp"
+#include "barycert/job.hpp"
+#include "barycert/sample_job.hpp"
+#include "barycert/check_job.hpp"
+#include "barycert/verify_job.hpp"
+#include "barycert/render_job.hpp"
+#include "barycert/contour_job.hpp"
+#include "barycert/check.hpp"
+#include "barycert/certificate.hpp"
+#include "barycert/check_results.hpp"
+#include "barycert/defect.hpp"
+#include "barycert/fix.hpp"
+#include "barycert/measures.hpp"
+#include "barycert/not_finite.hpp"
+#include "barycert/surface_report.hpp"
+#include "barycert/plc.hpp"
+#include "barycert/surface.hpp"
+#include "barycert/figure.hpp"
+#include "barycert/grid.hpp"
+#include "barycert/verify.hpp"
+#include "barycert/gmsh_files.hpp"
+#include "barycert/mesh_files.hpp"
+#include "barycert/plc_files.hpp"
+#include "barycert/point_files.hpp"
+#include "barycert/series.hpp"
+#include "barycert/surface_files.hpp"
+#include "barycert/table_files.hpp"
+#include "barycert/tetgen_files.hpp"
+#include "barycert/vtk_files.hpp"
 
 namespace barycert::jobs {
 

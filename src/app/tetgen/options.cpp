@@ -11,7 +11,15 @@
 #include <new>
 
 #include "app/options/parser.hpp"
-#include "barycert/io.hpp"
+#include "barycert/gmsh_files.hpp"
+#include "barycert/mesh_files.hpp"
+#include "barycert/plc_files.hpp"
+#include "barycert/point_files.hpp"
+#include "barycert/series.hpp"
+#include "barycert/surface_files.hpp"
+#include "barycert/table_files.hpp"
+#include "barycert/tetgen_files.hpp"
+#include "barycert/vtk_files.hpp"
 #include "core/base/text.hpp"
 
 namespace barycert {

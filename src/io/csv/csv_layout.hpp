@@ -1,7 +1,15 @@
 /// Layout of a CSV file, which its first line decides, and rows read by it. Errors are thrown as Exceptions.
 #pragma once
 
-#include "barycert/io.hpp"
+#include "barycert/gmsh_files.hpp"
+#include "barycert/mesh_files.hpp"
+#include "barycert/plc_files.hpp"
+#include "barycert/point_files.hpp"
+#include "barycert/series.hpp"
+#include "barycert/surface_files.hpp"
+#include "barycert/table_files.hpp"
+#include "barycert/tetgen_files.hpp"
+#include "barycert/vtk_files.hpp"
 
 namespace barycert::io {
 

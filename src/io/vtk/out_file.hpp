@@ -1,7 +1,15 @@
 /// VTK's files on their way out: arrays whose numbers stand in memory, or are made some at a time; files of them.
 #pragma once
 
-#include "barycert/io.hpp"
+#include "barycert/gmsh_files.hpp"
+#include "barycert/mesh_files.hpp"
+#include "barycert/plc_files.hpp"
+#include "barycert/point_files.hpp"
+#include "barycert/series.hpp"
+#include "barycert/surface_files.hpp"
+#include "barycert/table_files.hpp"
+#include "barycert/tetgen_files.hpp"
+#include "barycert/vtk_files.hpp"
 #include "io/vtk/numbers.hpp"
 
 namespace barycert::io {

@@ -1,7 +1,15 @@
 // Any bytes under any name, given to what tells formats apart. The first byte: the suffix.
 #include <array>
 
-#include "barycert/io.hpp"
+#include "barycert/gmsh_files.hpp"
+#include "barycert/mesh_files.hpp"
+#include "barycert/plc_files.hpp"
+#include "barycert/point_files.hpp"
+#include "barycert/series.hpp"
+#include "barycert/surface_files.hpp"
+#include "barycert/table_files.hpp"
+#include "barycert/tetgen_files.hpp"
+#include "barycert/vtk_files.hpp"
 #include "tests/fuzz/files.hpp"
 #include "tests/fuzz/same.hpp"
 #include "tests/fuzz/target.hpp"

@@ -1,6 +1,14 @@
 // TetGen's and Triangle's files: .node, .ele, .face and .neigh, with form feeds between them. The last two may be
 // missing.
-#include "barycert/io.hpp"
+#include "barycert/gmsh_files.hpp"
+#include "barycert/mesh_files.hpp"
+#include "barycert/plc_files.hpp"
+#include "barycert/point_files.hpp"
+#include "barycert/series.hpp"
+#include "barycert/surface_files.hpp"
+#include "barycert/table_files.hpp"
+#include "barycert/tetgen_files.hpp"
+#include "barycert/vtk_files.hpp"
 #include "tests/fuzz/files.hpp"
 #include "tests/fuzz/same.hpp"
 #include "tests/fuzz/target.hpp"

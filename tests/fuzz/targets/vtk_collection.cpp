@@ -3,7 +3,15 @@
 #include <array>
 #include <memory>
 
-#include "barycert/io.hpp"
+#include "barycert/gmsh_files.hpp"
+#include "barycert/mesh_files.hpp"
+#include "barycert/plc_files.hpp"
+#include "barycert/point_files.hpp"
+#include "barycert/series.hpp"
+#include "barycert/surface_files.hpp"
+#include "barycert/table_files.hpp"
+#include "barycert/tetgen_files.hpp"
+#include "barycert/vtk_files.hpp"
 #include "tests/fuzz/files.hpp"
 #include "tests/fuzz/target.hpp"
 #include "tests/fuzz/vtk_round_trip.hpp"

@@ -1,7 +1,15 @@
 /// Files that are damaged or that hold no mesh of ours: an error with the file's name, never a crash, nothing printed.
 #include <functional>
 
-#include "barycert/io.hpp"
+#include "barycert/gmsh_files.hpp"
+#include "barycert/mesh_files.hpp"
+#include "barycert/plc_files.hpp"
+#include "barycert/point_files.hpp"
+#include "barycert/series.hpp"
+#include "barycert/surface_files.hpp"
+#include "barycert/table_files.hpp"
+#include "barycert/tetgen_files.hpp"
+#include "barycert/vtk_files.hpp"
 #include "tests/io/vtk/good_files.hpp"
 #include "tests/io/vtk/mesh_notes.hpp"
 

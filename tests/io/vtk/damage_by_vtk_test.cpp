@@ -1,7 +1,15 @@
 /// Files that VTK wrote, damaged: a mesh or an error, never a crash, nothing printed.
 #include <vtkXMLUnstructuredGridWriter.h>
 
-#include "barycert/io.hpp"
+#include "barycert/gmsh_files.hpp"
+#include "barycert/mesh_files.hpp"
+#include "barycert/plc_files.hpp"
+#include "barycert/point_files.hpp"
+#include "barycert/series.hpp"
+#include "barycert/surface_files.hpp"
+#include "barycert/table_files.hpp"
+#include "barycert/tetgen_files.hpp"
+#include "barycert/vtk_files.hpp"
 #include "core/base/random.hpp"
 #include "tests/io/vtk/good_files.hpp"
 #include "tests/io/vtk/mixed_grid.hpp"

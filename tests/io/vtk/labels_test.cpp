@@ -1,5 +1,13 @@
 /// Strings and wide integers of cells, cell numbers, ghost cells and notes, in files written here.
-#include "barycert/io.hpp"
+#include "barycert/gmsh_files.hpp"
+#include "barycert/mesh_files.hpp"
+#include "barycert/plc_files.hpp"
+#include "barycert/point_files.hpp"
+#include "barycert/series.hpp"
+#include "barycert/surface_files.hpp"
+#include "barycert/table_files.hpp"
+#include "barycert/tetgen_files.hpp"
+#include "barycert/vtk_files.hpp"
 
 #include "tests/io/vtk/mesh_notes.hpp"
 

@@ -12,7 +12,15 @@
 #include <bit>
 #include <limits>
 
-#include "barycert/io.hpp"
+#include "barycert/gmsh_files.hpp"
+#include "barycert/mesh_files.hpp"
+#include "barycert/plc_files.hpp"
+#include "barycert/point_files.hpp"
+#include "barycert/series.hpp"
+#include "barycert/surface_files.hpp"
+#include "barycert/table_files.hpp"
+#include "barycert/tetgen_files.hpp"
+#include "barycert/vtk_files.hpp"
 #include "tests/io/tetgen/random_mesh.hpp"
 #include "tests/io/vtk/mixed_grid.hpp"
 #include "tests/io/vtk/vtk_files.hpp"

@@ -5,7 +5,15 @@
 #include <bit>
 #include <cstdint>
 
-#include "barycert/io.hpp"
+#include "barycert/gmsh_files.hpp"
+#include "barycert/mesh_files.hpp"
+#include "barycert/plc_files.hpp"
+#include "barycert/point_files.hpp"
+#include "barycert/series.hpp"
+#include "barycert/surface_files.hpp"
+#include "barycert/table_files.hpp"
+#include "barycert/tetgen_files.hpp"
+#include "barycert/vtk_files.hpp"
 #include "core/base/text.hpp"
 #include "tests/check/meshes.hpp"
 #include "tests/locate/points.hpp"

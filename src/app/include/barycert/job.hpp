@@ -1,0 +1,73 @@
+/// Whole jobs, files to files: what all of them have. The command line and the bindings call them.
+///
+/// A job names its files and options; one call reads the mesh and its fields, checks the mesh where that pays, streams
+/// points through a Sampler and writes rows, grids, pictures or meshes. Memory is that of the mesh and some blocks of
+/// points. Output files appear whole or not at all; rows on stdout cannot be taken back.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "barycert/locator.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/series.hpp"
+
+namespace barycert {
+
+/// A field from a file of its own: a row of numbers for each node, or for each cell.
+struct FieldFile {
+    enum class Of : std::uint8_t { either, points, cells };
+    Of of = Of::either;
+    std::string name, path;
+    /// Of a CSV file the name or number (from 1) of the column, of a structured NPY file the field, of a mesh the
+    /// array. Empty: all that a text or NPY file holds.
+    std::string column = {};
+};
+
+/// What a job is doing.
+struct JobProgress {
+    std::string_view stage;  ///< such as "reading part.1" or "points"
+    std::uint64_t done = 0;  ///< how many; 0: not counted
+};
+
+/// What all jobs on a mesh have.
+struct MeshJob {
+    std::string mesh;      ///< as for read_mesh
+    StepChoice step = {};  ///< of a mesh that is a series (.pvd, .vtu.series); none: the first
+    std::vector<FieldFile> field_files = {};
+    Curved curved = Curved::isoparametric;                             ///< what becomes of curved cells
+    CellInterpolation cell_interpolation = CellInterpolation::linear;  ///< of sampling and verification
+
+    /// Where the caller will write reports, after what it calls them: checked with the files of the job.
+    std::vector<std::pair<std::string, std::string>> reports = {};
+    std::string program = "barycert";  ///< how the user calls the program, for commands in messages
+    /// Called by one thread at a time, which need not be the caller's.
+    std::function<void(const JobProgress&)> progress = {};
+};
+
+/// What reports of jobs on a mesh have.
+struct MeshReport {
+    std::string mesh;
+    CurvedCells curved;  ///< of the mesh: taken with straight sides
+    Notes notes;         ///< what was left out, converted or guessed: of the mesh, of fields, of points
+    std::uint64_t nodes = 0, cells = 0;
+    std::uint64_t simplices = 0;  ///< that the cells are cut into; 0: they are simplices
+    int dimension = 3, threads = 1;
+};
+
+/// Wall times of the stages. Points are read, sampled and written at the same time: of these each has the time in which
+/// somebody was busy with it, divided by the threads where several may be.
+struct JobSeconds {
+    double mesh = 0;    ///< reading the mesh and the files of fields
+    double build = 0;   ///< of the locator and the sampler; of a contour the cut
+    double read = 0;    ///< of points
+    double sample = 0;  ///< owners, features and values; of a picture the index, too
+    double write = 0;
+    double total = 0;
+};
+
+}  // namespace barycert

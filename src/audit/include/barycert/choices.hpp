@@ -1,0 +1,33 @@
+/// Kernels and families by their names.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "barycert/family.hpp"
+#include "barycert/kernels.hpp"
+#include "barycert/result.hpp"
+
+namespace barycert {
+
+/// Kernels by their names, and those of users' libraries.
+struct KernelChoice {
+    std::vector<std::string> names = {};  ///< * and ? are wildcards; empty: all, beside libraries none of the catalogue
+    std::vector<std::string> libraries = {};
+    bool in_process = false;                     ///< else each library's kernel is run in a process of its own
+    double seconds = 1;                          ///< that it may take for a case there
+    std::optional<double> class_tolerance = {};  ///< of kernels that have no rule of their own
+};
+
+/// Of the catalogue, in its order, then those of the libraries. Error: a name that none has; a library that cannot be
+/// loaded; two with one name.
+Result<std::vector<Kernel>> choose_kernels(const KernelChoice& choice);
+
+/// Exactly one: that of the library, or the one that the name has. Error also: both are given, or neither.
+Result<Kernel> choose_kernel(const KernelChoice& choice);
+
+/// Those that match one of the names, in their order; all if there is none. Error: a name that none has.
+Result<std::vector<Family>> choose_families(const std::vector<std::string>& names);
+
+}  // namespace barycert
