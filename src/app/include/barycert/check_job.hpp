@@ -46,7 +46,7 @@ struct CheckedMesh {
     bool copied = false;             ///< the copy was written and checked
     Status written = Done{};         ///< the first output that could not be written, or why there is no copy
 
-    /// Of the copy, if there is one.
+    /// Whether the copy is certified, or the mesh if there is no copy.
     bool certified() const { return (copied ? fixed->after : report).certified(); }
 };
 

@@ -19,11 +19,12 @@
 
 namespace barycert {
 
-/// What sampling and resampling have.
+/// Members that sampling and resampling have.
 struct SamplingJob : MeshJob {
-    /// Of a mesh that is a series: without a `step`, where the output has {step} or {time} in its name, and there are
-    /// no series of fields, every step is sampled into an output of its own, in which its number or time takes that
-    /// place; points are located anew where the mesh is another one. With all_steps an Error where that is not so.
+    /// For a mesh that is a series. Every step is sampled into an output of its own if there is no `step`, the output
+    /// has {step} or {time} in its name, and there are no series of fields; the step's number or time takes that place
+    /// in the name. Points are located anew where the mesh is another one. Error, with all_steps: these conditions do
+    /// not hold.
     bool all_steps = false;
     /// Fields that change from step to step: each path has one *, and each file that it matches is a step, in natural
     /// order (2 before 10); or it is a .pvd or .vtu.series file. Where the output has {step} or {time} in its name,
@@ -99,7 +100,7 @@ struct FieldIntegral {
     std::uint64_t source_left_out = 0, target_left_out = 0;  ///< cells with a value that is not finite
 };
 
-/// What a job did: what its reports are made of.
+/// Results of a job, from which its reports are made.
 struct SampleReport : MeshReport {
     std::string command;  ///< "sample" or "resample"
     std::string output, weights;

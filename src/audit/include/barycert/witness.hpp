@@ -47,8 +47,8 @@ struct Replay {
     OracleAnswer exact;
     int affine_dimension = 0;  ///< of the simplex
 
-    /// Of interpolation along auxiliary lines or, for perspective, ray casting; `undefined` for segments and
-    /// triangle3d.
+    /// Verdict on an identity: interpolation along auxiliary lines or, for perspective, ray casting gives the same
+    /// weights. `undefined` for segments and triangle3d.
     IdentityVerdict identity = IdentityVerdict::undefined;
     std::vector<KernelAnswer> answers;  ///< of the kernels for such cases
     std::string not_reproduced;  ///< why it no longer shows its finding; empty if it does, or names no kernel or reason

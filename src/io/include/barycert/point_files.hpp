@@ -36,7 +36,7 @@ namespace barycert {
 
 /// Which columns of a file of points are taken for what.
 struct PointOptions {
-    /// Those of the coordinates, in the order of the axes: names, or numbers from 1. One text may hold several, with
+    /// Columns of the coordinates, in the order of the axes: names, or numbers from 1. One text may hold several, with
     /// commas between them. Empty: see above.
     std::vector<std::string> columns = {};
 
@@ -48,8 +48,8 @@ struct PointOptions {
     /// meshes, and not for a z that must be 0.
     NonfinitePoints nonfinite_points = NonfinitePoints::error;
 
-    /// Of CSV: columns that are carried through become integers or numbers, if all their values are; texts otherwise.
-    /// The file is read twice, and must not be a pipe. Without it they are texts, as they stand in the file.
+    /// For CSV: carried columns become integers or numbers, if all their values are; texts otherwise. The file is read
+    /// twice, and must not be a pipe. If false, carried columns are texts, as they stand in the file.
     bool typed = false;
 };
 
@@ -74,7 +74,7 @@ public:
     /// Moves the carried columns of the points of the last read() to `columns`, a value a point.
     virtual void take_carried(std::vector<Column>& columns) { columns.clear(); }
 
-    /// What of the file is left out, converted or guessed. Known when opened.
+    /// Returns what of the file is left out, converted or guessed. Known when opened.
     virtual Notes notes() const { return {}; }
 };
 

@@ -54,7 +54,7 @@ struct CheckOptions {
     int threads = 0;           ///< 0: one per core
     bool delaunay = false;     ///< test every interior facet
     const Plc* plc = nullptr;  ///< test conformity to its facets (tetrahedra only)
-    /// Of check_plc: facets are turned, as polygons of surfaces are, and two are turned alike or not.
+    /// For check_plc: facets are turned, as polygons of surfaces are, and two are turned alike or not.
     bool turned_facets = false;
     std::size_t examples = 10;  ///< max number of places kept of each defect
     std::size_t contacts = 20;  ///< max number of pairs of cells for which a common point is computed
@@ -92,7 +92,7 @@ struct CheckReport {
     std::optional<DelaunayReport> delaunay;
     std::optional<ConformityReport> conformity;
 
-    /// What users know the cells as, and what the reader of the mesh has told: those of Mesh. All other members count
+    /// Numbers by which users know the cells, and notes of the mesh's reader: those of Mesh. All other members count
     /// cells from 0 as in memory; reports translate.
     std::vector<Mesh::Index> cell_numbers;
     Notes notes;

@@ -31,7 +31,7 @@ struct CellMeasures {
     std::vector<double> max_angle;    ///< largest dihedral angle (2D: angle), degrees
 };
 
-/// Those that are numbers, under the names that files and reports have.
+/// Measures that are numbers, under the names that files and reports have.
 inline constexpr std::array<std::pair<std::string_view, std::vector<double> CellMeasures::*>, 6> cell_measures{
     {{"volume", &CellMeasures::volume},
      {"condition", &CellMeasures::condition},
