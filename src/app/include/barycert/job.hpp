@@ -1,4 +1,4 @@
-/// Whole jobs, files to files: what all of them have. The command line and the bindings call them.
+/// Whole jobs, files to files: the parts that all of them have. The command line and the bindings call them.
 ///
 /// A job names its files and options; one call reads the mesh and its fields, checks the mesh where that pays, streams
 /// points through a Sampler and writes rows, grids, pictures or meshes. Memory is that of the mesh and some blocks of
@@ -59,8 +59,8 @@ struct MeshReport {
     int dimension = 3, threads = 1;
 };
 
-/// Wall times of the stages. Points are read, sampled and written at the same time: of these each has the time in which
-/// somebody was busy with it, divided by the threads where several may be.
+/// Wall times of the stages. Points are read, sampled and written at the same time: each of these stages has the time
+/// during which a thread was busy with it, divided by the number of threads where several may be.
 struct JobSeconds {
     double mesh = 0;    ///< reading the mesh and the files of fields
     double build = 0;   ///< of the locator and the sampler; of a contour the cut

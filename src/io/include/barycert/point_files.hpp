@@ -1,8 +1,8 @@
 /// Streams of points: CSV and NPY files, block by block, so that memory does not grow with their number; the nodes of
 /// .node files and meshes.
 ///
-/// Coordinates are finite doubles (but see PointOptions); decimal numbers are rounded to nearest, ties to even. What
-/// cannot be read without a guess is an Error.
+/// Coordinates are finite doubles (but see PointOptions); decimal numbers are rounded to nearest, ties to even. A file
+/// that cannot be read without a guess is an Error.
 ///
 /// The coordinates are the columns that PointOptions names; or x, y, z; Points:0, Points:1, Points:2; or Points_0,
 /// Points_1, Points_2, in any case and any place; or, in a file that names none, all columns, if they are as many as
@@ -44,8 +44,8 @@ struct PointOptions {
     /// files that name none are column1, column2, ...
     std::vector<std::string> keep = {};
 
-    /// nan: points that are not finite are given as they are, and an empty field of a CSV file as NaN. Not for nodes of
-    /// meshes, and not for a z that must be 0.
+    /// nan: points that are not finite are passed on as they are, and an empty field of a CSV file is NaN. Nodes of
+    /// meshes, and a z that must be 0, stay errors.
     NonfinitePoints nonfinite_points = NonfinitePoints::error;
 
     /// For CSV: carried columns become integers or numbers, if all their values are; texts otherwise. The file is read

@@ -1,4 +1,4 @@
-/// Results of any tool held against the exact ones: which of its points, cells and values are wrong, and by how much.
+/// Compares results of any tool with the exact ones: which of its points, cells and values are wrong, and by how much.
 ///
 /// Input: a mesh with fields, points in its unit, and for each point what a tool says of it: outside or not, the cell
 /// that contains it, a value for each component of fields. Output: counts, distributions of errors, and the worst rows.
@@ -7,9 +7,9 @@
 ///   R1  Inside: the point lies in a closed cell of non-zero volume, exactly. A row that says so is right, and so is a
 ///       row that says "outside" of any other point.
 ///   R2  Cell: any closed cell of non-zero volume that contains the point is right, not its owner alone.
-///   R3  Value: the error is the distance to the exact interpolation in the owner, rounded once. Where more than one
-///       cell contains the point, it is the least over these cells, as they may differ where cells overlap, and for
-///       fields of cells.
+///   R3  Value: the error is the distance to the exact interpolation in the owner, rounded once. If several cells
+///       contain the point, it is the least error over these cells: their values may differ where cells overlap, and
+///       for fields of cells.
 ///   R4  Nothing is silent: every row is in exactly one of Verdicts::right, missed, invented, wrong_cell, wrong_value.
 ///   D1  Counts depend on mesh, fields and rows alone: not on threads or blocks.
 #pragma once
@@ -128,7 +128,7 @@ struct Verdicts {
     std::uint64_t of(RowVerdict v) const {
         return std::array{right, missed, invented, wrong_cell, wrong_value}[static_cast<std::size_t>(v)];
     }
-    /// Adds what was found in rows that came after.
+    /// Adds the verdicts of rows that came after.
     void add(const Verdicts& other, std::size_t examples);
 };
 
@@ -137,12 +137,12 @@ class Verifier {
 public:
     Verifier(const Sampler& sampler, const VerifyOptions& options);
 
-    /// Holds rows against the exact ones. Returns an Error if sizes do not fit, or a coordinate is not finite
-    /// where that is an Error.
+    /// Compares rows with the exact ones. Error: sizes that do not fit; a coordinate that is not finite, unless
+    /// options().nonfinite_points makes such points outside.
     Result<Verdicts> verify(const ClaimedRows& rows) const;
 
-    /// How far rows invented lie outside, and the farthest of them as examples. To be called once, after the verdicts
-    /// of all parts of the rows were added.
+    /// Measures how far invented rows lie outside, and makes the farthest of them examples. Call it once, after the
+    /// verdicts of all parts of the rows were added.
     Status measure(Verdicts& verdicts) const;
 
     /// The numbers that errors are relative to, one a column.
