@@ -1,5 +1,5 @@
-// Rules that answer cases of their own: all families of cases, on threads. Those on triangles in space are held against
-// the oracle; inverse maps against barycert's own, which are proved case by case.
+// Rules that answer cases of their own: all families of cases, on threads. Rules on triangles in space are compared
+// with the oracle; inverse maps with barycert's own, which are proved case by case.
 
 #include <cmath>
 

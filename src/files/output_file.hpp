@@ -52,7 +52,8 @@ public:
     /// The first error so far. Bytes are gathered, so that an error may show only at a later call.
     Status status() const;
 
-    /// Hands all to the system; the target stays. Of files that change together close() all, commit() if all is well.
+    /// Hands all to the system; the target stays. For files that change together, close() all, then commit() them if
+    /// all is well.
     Status close();
 
     /// close() if that is still to do, then the rename.

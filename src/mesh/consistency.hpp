@@ -14,7 +14,8 @@ inline constexpr const char* not_listed = "the nodes and cells of a grid are not
 /// written, and read again.
 const char* inconsistency(const Mesh& mesh, FieldValues values = FieldValues::finite);
 
-/// All of it but what belongs to faces: their markers and nodes at mid-edges. What check_mesh certifies passes.
+/// The same without what belongs to faces: their markers and nodes at mid-edges. A mesh that check_mesh certifies
+/// passes.
 const char* inconsistency_of_cells(const Mesh& mesh, FieldValues values);
 
 /// The same for a grid whose cells are not listed.

@@ -167,8 +167,8 @@ Parts turn(Parts parts) {
 /// Cells that are cut alike, by type, number of nodes and which of these are lowest.
 using KnownParts = std::unordered_map<std::uint64_t, Parts>;
 
-/// Cuts cells one after the other. What is cut alike, as most convex cells are, is cut once; exact signs tell of each
-/// cell whether it is.
+/// Cuts cells one after the other. Cells that are cut alike, as most convex cells are, are cut once; exact signs tell
+/// whether a cell is.
 class Cutter {
 public:
     Cutter(const Mesh& mesh, std::span<const Index> numbers, KnownParts& known)

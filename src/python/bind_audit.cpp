@@ -28,8 +28,9 @@ struct Callable {
 Callable* callable_kernel = nullptr;
 std::mutex callable_kernel_in_use;
 
-/// A call of the callable, on this thread. What it forks has an end of a pipe, until it ends or runs another program.
-/// A process that comes back from the callable without having called it would go on with the audit and the script.
+/// A call of the callable, on this thread. A process that it forks has an end of a pipe, until it ends or runs another
+/// program. A process that comes back from the callable without having called it would go on with the audit and the
+/// script.
 struct Call {
     Call() {
         static const int told_of_forks = ::pthread_atfork(

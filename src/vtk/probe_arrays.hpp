@@ -26,8 +26,8 @@ void prepare(vtkAbstractArray& array, vtkIdType tuples, double outside);
 
 class ProbeArrays {
 public:
-    /// Adds to the point data of `output` the arrays that vtkProbeFilter would, the mask last, without tuples. What is
-    /// sampled of `source` is copied. `categorical`: the scalars are those of the vertex of greatest weight.
+    /// Adds to the point data of `output` the arrays that vtkProbeFilter would, the mask last, without tuples. Copies
+    /// the arrays of `source` that are sampled. `categorical`: the scalars are those of the vertex of greatest weight.
     ProbeArrays(const ExactIndex& index, vtkDataSet& source, vtkDataSet& output, bool categorical,
                 const char* mask_name);
 

@@ -23,7 +23,7 @@ public:
     /// `prepare` runs before each run and is not timed.
     void add(const std::string& name, std::function<void()> work, std::function<void()> prepare = {});
 
-    /// All of them in turn, so many times. What takes less than half a second runs twice in each turn, the first time
+    /// All of them in turn, so many times. A run of less than half a second runs twice in each turn, the first time
     /// only to warm up. Progress goes to the standard error.
     void run(int repetitions);
 

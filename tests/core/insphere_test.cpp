@@ -27,7 +27,7 @@ Sign opposite(Sign s) {
 }
 
 /// Sign of the determinant of the rows (x, |x|^2, 1), by elimination and without differences: nothing in common with
-/// the formula of the library. Of points in space it is negative inside a positive simplex.
+/// the formula of the library. For points in space it is negative inside a positive simplex.
 Sign expected(const Points& p) {
     const std::size_t n = p.count();
     std::vector<std::vector<Q>> row(n);

@@ -1,4 +1,4 @@
-// Whole jobs as a library calls them. What they write is tested by way of the command line, in tests/cli.
+// Whole jobs as a library calls them. Their output is tested by way of the command line, in tests/cli.
 #include "barycert/job.hpp"
 #include "barycert/sample_job.hpp"
 #include "barycert/check_job.hpp"

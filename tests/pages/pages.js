@@ -242,7 +242,8 @@ async function turning(opened, mesh) {
   }
 }
 
-/// A mesh in the plane moves where it is dragged. Of a part of a mesh cells and nodes have the numbers of the whole, from 0.
+/// A mesh in the plane moves where it is dragged. In a part of a mesh cells and nodes have the numbers of the whole,
+/// from 0.
 async function turningOthers(opened, bracket) {
   await opened("flat", { viewport: { width: 900, height: 900 } }, async (page, where) => {
     const middle = () => page.evaluate(() => document.querySelector(".turning").viewer.pixelOf([1, 1, 0]));

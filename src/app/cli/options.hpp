@@ -104,7 +104,8 @@ inline const std::vector<std::string_view> figure_options{
 /// Refuses what an option is given.
 [[noreturn]] void refuse_option(Text option, Text expected, Text found);
 
-/// The options of one subcommand. What they set must outlive the parser. Texts name the program as it is called.
+/// The options of one subcommand. The variables that they set must outlive the parser. Texts name the program as it is
+/// called.
 class Options {
 public:
     /// `exit_code` is set by the subcommand that has run.

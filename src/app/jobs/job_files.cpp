@@ -40,7 +40,7 @@ void add_fields_to(std::vector<base::NamedFile>& inputs, const std::vector<Field
 /// Refuses an output of a step that is an input or another output. Precondition: has_step_place(output).
 void check_step_outputs(const std::vector<base::NamedFile>& inputs, const std::string& output,
                         const std::vector<Step>& steps) {
-    // By device and inode: there may be thousands of each. What does not exist is no input.
+    // By device and inode: there may be thousands of each. A file that does not exist is no input.
     std::map<std::pair<dev_t, ino_t>, std::string> known;
     const auto add = [&](const std::string& path, const std::string& what) -> const std::string* {
         struct stat status {};

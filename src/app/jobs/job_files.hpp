@@ -1,5 +1,5 @@
-/// How all jobs open their meshes and fields, and what can be known of their files before the work. What goes wrong
-/// within a job is thrown as an Exception: its public function returns the Error.
+/// How all jobs open their meshes and fields, and what can be known of their files before the work. Errors within a job
+/// are thrown as Exceptions: its public function returns the Error.
 #pragma once
 
 #include <tbb/global_control.h>

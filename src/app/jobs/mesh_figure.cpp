@@ -263,7 +263,7 @@ void MeshFigure::add_lines(const std::vector<double>& points, std::vector<std::i
     figure_.lines.push_back({points, indices_.emplace_back(std::move(segments)), width, colour});
 }
 
-/// Not one that cuts a face of a cell in two, or lies in it. Of nodes.
+/// True for an edge between two nodes, but not if it cuts a face of a cell in two, or lies in one.
 bool MeshFigure::is_cell_edge(Mesh::Index cell, Mesh::Index a, Mesh::Index b) const {
     const auto& inside = mesh_->shapes.inside;
     if (inside.empty()) return true;

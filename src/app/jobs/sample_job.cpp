@@ -61,7 +61,7 @@ void check_job(const SampleJob& job, const std::vector<jobs::Step>& steps) {
                       {{"job.output", job.output}, {"job.save_map", job.save_map}, {"job.plot", job.plot}});
 }
 
-/// Rows of a map, which must stay. Those of one point follow one another, their cells ascending.
+/// Rows of a map, which must stay. Rows of one point follow one another, their cells ascending.
 jobs::RowSource rows_of_map(MapReader& map) {
     const auto read = [&map, cell = Mesh::Index{-1}, before = std::array<double, 3>()](std::size_t most,
                                                                                        jobs::Block& block) mutable {

@@ -53,7 +53,7 @@ public:
     void locate_in(const Locator& locator);
 
     /// Three stages at once: blocks are read one after the other, worked on side by side, and written in their order.
-    /// At most one block a thread, and two more, are in memory. What the first block throws ends it all.
+    /// At most one block a thread, and two more, are in memory. An exception of the first block ends it all.
     void run(const Stage& work, const Stage& write);
 
 private:

@@ -2,10 +2,10 @@
 /// exact numbers rounded to the nearest double, ties to even, subnormals and overflow included.
 ///
 /// The number type is Boost.Multiprecision's cpp_int, which CGAL supports as a number type of its own
-/// (CGAL/boost_mp.h). Of CGAL's number types, measured on four signs of (point, tetrahedron): Mpzf 1.7 us, cpp_int 2.1
-/// us, gmp_int 3.9 us, Gmpz 6.1 us, Gmpq 12.3 us, Epeck 17.7 us; but most meshes need no more than 61 bits a
-/// coordinate, and there machine words and a fixed-width cpp_int do the same in a fraction of that. So one algorithm is
-/// compiled for two sets of types, `Narrow` and `Wide`.
+/// (CGAL/boost_mp.h). Times of CGAL's number types for four signs of (point, tetrahedron): Mpzf 1.7 us, cpp_int 2.1 us,
+/// gmp_int 3.9 us, Gmpz 6.1 us, Gmpq 12.3 us, Epeck 17.7 us; but most meshes need no more than 61 bits a coordinate,
+/// and there machine words and a fixed-width cpp_int do the same in a fraction of that. So one algorithm is compiled
+/// for two sets of types, `Narrow` and `Wide`.
 #pragma once
 
 #include <CGAL/boost_mp.h>

@@ -75,9 +75,9 @@ inline double magnitude(std::size_t reason, const Evaluation& e) {
     return e.comparison.weight_error;
 }
 
-/// How bad the case is for that reason; -1 if it does not show it. Of findings that is the relative error, so that a
-/// wrong sign counts by what it does to a value; where an answer is missing or not finite the better cell is the worse
-/// fault.
+/// How bad the case is for that reason; -1 if it does not show it. For findings that is the relative error, so that a
+/// wrong sign counts by its effect on a value. If an answer is missing or not finite, the fault is worse the better the
+/// cell is.
 inline double badness(std::size_t reason, const Evaluation& e) {
     if (reason >= finding_count) return std::isfinite(magnitude(reason, e)) ? magnitude(reason, e) : -1;
     if (e.comparison.counts[reason] == 0) return -1;

@@ -5,8 +5,8 @@
 
 namespace barycert::core::isoparametric {
 
-/// One component: the values of active nodes, below 1 in size, and the exponent that gives them back. What underflows
-/// is below 2^-1074, for which value_of() has room.
+/// One component: the values of active nodes, below 1 in size, and the exponent that gives them back. Values that
+/// underflow are below 2^-1074, for which value_of() has room.
 struct Component {
     std::array<double, max_nodes> values{};
     int exponent = 0;

@@ -122,7 +122,7 @@ struct CsvLine {
 };
 CsvLine cut_first_line(std::string_view line, const LinePlace& place);
 
-/// Begins as numbers do, or is a word for one. What is meant as a number must not make its line a header.
+/// Begins as numbers do, or is a word for one. A field that is meant as a number must not make its line a header.
 bool looks_numeric(std::string_view field);
 
 /// From the first line that holds fields. Carried columns are texts.

@@ -228,7 +228,8 @@ void parse_runs(const MshFile& file, std::string_view section, std::span<const R
     file.refuse(file.end(), "a row is refused once and not again");
 }
 
-/// A section from its beginning: headers number by number, rows passed over. What is not there is refused.
+/// Walks through a section from its beginning: reads headers number by number, passes rows over. Refuses what is not
+/// there.
 class Walk {
 public:
     /// `text`: numbers are text, as those of some headers in binary files. `bad`: what errors call a word that is none.

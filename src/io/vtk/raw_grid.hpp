@@ -88,7 +88,7 @@ struct StructuredGrid {
     }
     std::size_t point_count() const { return counts[0] * counts[1] * counts[2]; }
     std::size_t cell_count() const;
-    /// Cells go with Part::all. Those along axes stay unlisted then.
+    /// Appends points, and with Part::all cells. Cells along axes stay unlisted then.
     void append_to(RawGrid& grid, Part part) const;
 };
 
@@ -152,7 +152,7 @@ struct FileText {
 };
 
 /// Reads the numbers of an array whose name, components and type are known: as doubles or, where these are not exact,
-/// as labels, if `may_label`. Markers of points are labels in any case. What can be neither has a fault.
+/// as labels, if `may_label`. Markers of points are labels in any case. An array that can be neither has a fault.
 /// `read`: appends all of them there, from the first on, and tells a number that is not exact.
 void read_numbers(RawArray& array, bool of_points, bool may_label,
                   const std::function<void(NumbersTo values, NumberFault& inexact)>& read);

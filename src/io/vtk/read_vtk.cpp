@@ -39,7 +39,7 @@ std::string path_beside(const std::string& collection, std::string_view name) {
     return (std::filesystem::path(collection).parent_path() / std::filesystem::path(name)).string();
 }
 
-/// Types of files. Those of pieces (P...) have the names in <Piece Source="...">, the others in <DataSet file="...">.
+/// Types of files. Types with pieces (P...) have the names in <Piece Source="...">, the others in <DataSet file="...">.
 constexpr std::string_view collection_types =
     "PUnstructuredGrid PPolyData vtkMultiBlockDataSet vtkPartitionedDataSet vtkPartitionedDataSetCollection Collection";
 

@@ -22,7 +22,7 @@ struct Point {
 };
 
 /// [i][j]: corner j of `other` over the side of the cell opposite to corner i: not negative for all i if it is in the
-/// cell. Of a triangle in space also over and under its plane.
+/// cell. For a triangle in space also over and under its plane.
 std::vector<std::vector<Number>> over_sides(const std::vector<Vector>& cell, const std::vector<Vector>& other) {
     const std::size_t n = cell.size();
     std::vector<std::vector<Number>> over(n);
@@ -100,7 +100,8 @@ std::vector<Point> spanning(std::size_t d, const std::vector<Point>& points) {
 }
 
 /// Longer fractions are not put in lowest terms, but for powers of two, and are not written where doubles do as well:
-/// either takes time quadratic in their length. Those of coordinates within 2^60 of each other have a few hundred bits.
+/// either takes time quadratic in their length. Numbers of coordinates within 2^60 of each other have a few hundred
+/// bits.
 constexpr std::size_t max_bits = 4096;
 
 /// numerator / denominator * 2^exponent as it is written, and rounded.

@@ -30,7 +30,7 @@ bool for_each_near_cell(const CellIndex& index, std::span<const Item> items, std
                         const std::function<const CellTree&()>& tree,
                         const std::function<Decided(std::size_t, Place)>& use);
 
-/// 1 for each of the cells `asked` whose interior meets that of another cell. Those that are degenerate (ascending) are
+/// 1 for each of the cells `asked` whose interior meets that of another cell. Cells that are degenerate (ascending) are
 /// not looked at. On the threads of the calling arena.
 std::vector<std::uint8_t> find_overlapped(const CellIndex& index, std::span<const Place> asked,
                                           std::span<const Place> degenerate,

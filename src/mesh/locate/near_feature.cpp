@@ -159,8 +159,8 @@ double distance_to(const Point3& p, const NearFeature& f) {
     const Lattice lattice(p, {&f});
     Square s = square_of(lattice, p, f);
     if (s.numerator == 0) return 0;
-    // floor(numerator 4^shift / denominator) has 124 to 126 bits, its root 62 or 63. What was cut off, of either, is
-    // one more bit at the end that is not zero: it decides ties, and nothing else.
+    // floor(numerator 4^shift / denominator) has 124 to 126 bits, its root 62 or 63. The part that was cut off, of
+    // either, counts as one more bit at the end that is not zero: it decides ties, and nothing else.
     const int excess = static_cast<int>(msb(s.numerator)) - static_cast<int>(msb(s.denominator));
     const int shift = (125 - excess) >> 1;
     (shift >= 0 ? s.numerator : s.denominator) <<= static_cast<unsigned>(2 * std::abs(shift));

@@ -11,7 +11,7 @@ namespace barycert::locate {
 class MappedCells;
 
 /// Boxes whose numbers are coordinates of nodes, unrounded: those of eight neighbouring cells, in the order of the
-/// index, then of eight such boxes, up to one. Those of the cells themselves are made when they are asked for: 7 bytes
+/// index, then of eight such boxes, up to one. Boxes of the cells themselves are made when they are asked for: 7 bytes
 /// a cell in all. The whole numbers of CellTree would not do: from far away, a difference of 2^-31 of the mesh in depth
 /// outweighs all that distinguishes cells sideways.
 class NearestTree {

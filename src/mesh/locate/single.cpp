@@ -45,7 +45,7 @@ struct End {
 };
 
 /// Where the last walk of this thread ended. A particle's next hint is that cell, and to look its place up would wait
-/// for memory. What is kept of a locator that is gone does no harm: a walk may start at any place that there is.
+/// for memory. An entry of a locator that is gone does no harm: a walk may start at any place that there is.
 struct LastEnd {
     const LocatorData* data = nullptr;
     Mesh::Index cell = -1;

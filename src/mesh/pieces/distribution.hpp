@@ -40,7 +40,7 @@ public:
     /// whole mesh; empty: as they come, after those of lower ranks.
     Status swap_values(std::span<const Mesh::Index> owners, const std::vector<std::int64_t>& numbers,
                        const Tuples& tuples);
-    /// Sets tuples of this rank's points that others own, and valid[point] to 1. Of this rank alone.
+    /// Sets tuples of this rank's points that others own, and valid[point] to 1. Called by this rank alone.
     void merge(Tuples& tuples, char* valid);
 
     int ranks_with_cells() const { return ranks_with_cells_; }

@@ -14,8 +14,8 @@
 namespace barycert::pieces {
 
 /// How ranks reach each other: MPI, threads, or whatever an engine has. All ranks call the same function at the same
-/// time; but `send` and `receive` are of two ranks alone. No call needs memory of its own. Of one rank alone none is
-/// called but rank() and size().
+/// time; but `send` and `receive` are of two ranks alone. No call needs memory of its own. With one rank alone, only
+/// rank() and size() are called.
 class Communicator {
 public:
     virtual ~Communicator() = default;

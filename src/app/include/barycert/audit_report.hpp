@@ -56,7 +56,7 @@ Result<OtherResults> read_other_results(const std::string& path);
 
 // Reports as text for a terminal or a log.
 
-/// At most 100 columns, names aside: who is wrong, how often and by how much, a line a kernel, worst first. Of one
+/// At most 100 columns, names aside: who is wrong, how often and by how much, a line a kernel, worst first. For one
 /// kernel: its families, its findings and the commands that replay them. With style.wide all counts, the families, each
 /// kernel's worst witness with its command, however wide.
 std::string audit_text(const AuditReport& report, const TerminalStyle& style);

@@ -51,7 +51,7 @@ struct CheckedMesh {
 };
 
 /// Returns an Error, and writes nothing, if the job contradicts itself, an input cannot be read, or an output is an
-/// input or cannot be written. What goes wrong once the mesh is checked does not cost the report: CheckedMesh::written.
+/// input or cannot be written. Errors after the mesh is checked do not cost the report: CheckedMesh::written.
 Result<CheckedMesh> check_files(const CheckJob& job);
 
 }  // namespace barycert

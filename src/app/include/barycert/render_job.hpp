@@ -65,7 +65,7 @@ struct SceneChoice {
     bool surface = true;   ///< false: no boundary
     bool edges = false;    ///< of cells, on what is drawn
     bool outline = false;  ///< where the boundary bends by 30 degrees or more; in the plane all of it
-    /// Cut open: what has normal.x above the offset is left out. What is cut is closed by the section.
+    /// Cut open: parts with normal.x above the offset are left out. The section closes the cut.
     std::optional<Plane> plane = {};
     /// Cells with a node inside are left out.
     std::optional<std::pair<std::array<double, 3>, std::array<double, 3>>> box = {};
@@ -86,7 +86,7 @@ struct SceneChoice {
     std::vector<Mesh::Index> marked = {};  ///< cells by their numbers, in red
 };
 
-/// A picture as a file. Of MeshJob, `mesh` and what belongs to it are for PictureKind::mesh alone.
+/// A picture as a file. `mesh` and the members of MeshJob that belong to it are for PictureKind::mesh alone.
 struct RenderJob : MeshJob {
     PictureKind picture = PictureKind::scene;
     std::string output;         ///< .png; of a mesh also .svg or .pdf

@@ -78,7 +78,8 @@ std::string check_json(const CheckReport& report, const std::string& name, const
 /// page, which asks for nothing from anywhere and runs no scripts. It is well-formed XML, too. Some hundred kilobytes
 /// at most, whatever the size of the mesh. `mesh` is what the report is of, `mesh_name` what the user calls it.
 ///
-/// Cost: some passes over the mesh, and its boundary once more. Of broken meshes nothing is drawn that has no place.
+/// Cost: some passes over the mesh, and its boundary once more. Parts of broken meshes that have no place are not
+/// drawn.
 std::string check_html(const CheckReport& report, const Mesh& mesh, const std::string& mesh_name,
                        const FixedMesh* fixed = nullptr);
 /// The histograms of its measures as the bytes of a picture, by the suffix of `path`: .png, .pdf, else SVG. Error:

@@ -24,7 +24,7 @@ inline const char* cell_word(const CheckReport& report) {
 inline std::string cells_text(const CheckReport& r) {
     return r.shapes == 0 ? cells_text(r.cells, 0, r.dimension) : cells_text(r.shapes, r.cells, r.dimension);
 }
-/// Whether TetGen gets what it needs, and why not. Of surfaces.
+/// Says, for surfaces, whether TetGen gets what it needs, and why not.
 std::string tetgen_sentence(const CheckReport& report);
 
 /// Cells with it took no part in P2 to P5, and may have no place in space.

@@ -34,7 +34,7 @@ namespace barycert {
 // The experiment of Kettner, Mehlhorn, Pion, Schirra and Yap ("Classroom examples of robustness problems in geometric
 // computations", 2008): the point runs over a grid with steps of one ulp around (1/2, 1/2), the side lies on the
 // diagonal x = y from 12 to 24, and the sign of the weight of the vertex off that side tells on which side the kernel
-// sees the point. Exactly, the picture is a diagonal of zeros with one sign on either side. Of a tetrahedron the side
+// sees the point. Exactly, the picture is a diagonal of zeros with one sign on either side. The side of a tetrahedron
 // is a face in the plane x = y; a triangle3d lies in the plane z = 1/2; in perspective the depths are 1, 2, 3.
 
 struct SignPicture {
@@ -136,8 +136,8 @@ Result<DriftReport> measure_drift(const DriftOptions& options);
 Case drift_case(int size, std::uint64_t seed, std::uint64_t index);
 
 // The audit of rules that find the texel of a texture coordinate. A row of `size` texels covers the coordinates u from
-// 0 to 1: texel k those from k / size up to (k + 1) / size, the last one u = 1 too. What lies beyond belongs to the
-// first or last texel (clamp) or to the copies of the row side by side (repeat). Rules are held against exact integers
+// 0 to 1: texel k those from k / size up to (k + 1) / size, the last one u = 1 too. Coordinates beyond belong to the
+// first or last texel (clamp) or to the copies of the row side by side (repeat). Rules are compared with exact integers
 // where such code is known to fail: at and within a few ulps of the borders of texels, at and beyond both ends,
 // subnormal, huge.
 

@@ -3,7 +3,7 @@
 ///
 /// A surface is drawn by scene.hpp's rules. Lines are as wide everywhere, and hidden where a surface is before them.
 /// Surfaces in space are lit: their colour is multiplied by 0.35 to 1; light falls from the upper left behind the
-/// viewer, on both sides of a triangle (Lambert). Those in the plane are drawn from above, without light, on axes of
+/// viewer, on both sides of a triangle (Lambert). Surfaces in the plane are drawn from above, without light, on axes of
 /// one scale.
 #pragma once
 

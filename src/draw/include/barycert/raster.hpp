@@ -212,9 +212,9 @@ struct ClippedSegment {
     std::vector<double> a, b;  ///< the ends of what lies inside, in the order of the segment; equal if that is a point
 };
 
-/// Clips the segment from a to b, each a row of `dimension` coordinates (1 to 3) and any attributes. What lies on a
-/// bound is inside. Error: rows that differ in length or are too short; a number that is not finite (bounds of a box
-/// may be infinite).
+/// Clips the segment from a to b, each a row of `dimension` coordinates (1 to 3) and any attributes. A point on a bound
+/// is inside. Error: rows that differ in length or are too short; a number that is not finite (bounds of a box may be
+/// infinite).
 Result<ClippedSegment> clip_segment(int dimension, std::span<const double> a, std::span<const double> b,
                                     const HalfSpace& bound);
 Result<ClippedSegment> clip_segment(int dimension, std::span<const double> a, std::span<const double> b,

@@ -112,7 +112,7 @@ struct CheckReport {
 /// Checks a mesh. The report has the verdict, defects, measures and counts.
 CheckReport check_mesh(const Mesh& mesh, const CheckOptions& options = {});
 
-/// Check a surface or a PLC. Of the options these count: `threads`, `turned_facets`, `examples`, `contacts`, `near`,
+/// Check a surface or a PLC. These options count: `threads`, `turned_facets`, `examples`, `contacts`, `near`,
 /// `verdict_only`, `progress`. Time O(n log n), and for pairs as check_mesh.
 CheckReport check_surface(const Surface& surface, const CheckOptions& options = {});
 CheckReport check_plc(const Plc& plc, const CheckOptions& options = {});

@@ -41,7 +41,8 @@ Real offset(const iso::PatchNode& node, std::size_t k, Real o) {
     return node.other == nullptr ? own : own / 2 + (node.other[k] - o) / 2;
 }
 
-/// Coefficients of X - o in monomials. What is not constant does not depend on o, and is taken from the origin.
+/// Coefficients of X - o in monomials. Coefficients that are not constant do not depend on o, and are taken from the
+/// origin.
 std::vector<Real> coefficients_along(const iso::Patch& patch, std::size_t k, double o) {
     const iso::PatchBasis& basis = iso::patch_basis(patch);
     const double origin = patch.origin()[k];

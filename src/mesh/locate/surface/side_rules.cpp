@@ -220,8 +220,8 @@ private:
         return true;
     }
 
-    /// 1 for each side that looks into the unbounded part of space around a shell. What looks into one part, with
-    /// normals away from it, is a closed surface of a volume that is negative around the unbounded one.
+    /// 1 for each side that looks into the unbounded part of space around a shell. The sides that look into one part,
+    /// with normals away from it, are a closed surface; its volume is negative around the unbounded part.
     static std::vector<std::uint8_t> unbounded_sides(const Triangles& alone, const std::vector<double>& points) {
         DisjointSets sides(2 * alone.size());
         index::RidgeTurn turn(3, alone.facets);

@@ -100,8 +100,8 @@ struct FinishedPoints {
     std::vector<std::uint32_t> others;  ///< those without a value, by their numbers, ascending
 };
 
-/// Points [first, last) of the target: sets features, and adds to `out`. Those outside get `*outside` for each of their
-/// `stride` numbers; if that is nullptr they go to `others`.
+/// Points [first, last) of the target: sets features, and adds to `out`. Points outside get `*outside` for each of
+/// their `stride` numbers; if that is nullptr they go to `others`.
 void finish_points(const FillTarget& target, std::size_t first, std::size_t last, const double* outside,
                    FinishedPoints& out);
 

@@ -40,9 +40,9 @@ struct QuantityShape {
 Result<QuantityShape> shape_of(const Mesh& mesh, const FieldChoice& choice);
 
 /// The fields of these names, or what expressions make of them; a field that has the whole text as its name goes
-/// before. What lies in nodes comes first, then what lies in cells, then what is computed for each point; all fields if
-/// no name is given. A name may be several, with commas between them. The mesh must stay. Returns an Error if there is
-/// no such field, with a list of those there are, or if one is named twice.
+/// before. Fields of nodes come first, then fields of cells, then quantities computed for each point; all fields if no
+/// name is given. A name may be several, with commas between them. The mesh must stay. Returns an Error if there is no
+/// such field, with a list of those there are, or if one is named twice.
 Result<std::vector<FieldChoice>> quantities_named(const Mesh& mesh, const std::vector<std::string>& names);
 
 /// The expression with another innermost name, if it is one of `name` (of cell:NAME, point:NAME); else nothing.
