@@ -31,7 +31,7 @@ if(TARGET barycert_cli)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/data/meshes DESTINATION ${CMAKE_INSTALL_DATADIR}/barycert/data COMPONENT cli OPTIONAL)
   include(BarycertPages)
 endif()
-# What each needs: of this project, and to be found elsewhere.
+# Needs of each library: of this project, and to be found elsewhere.
 set(barycert_needs "")
 foreach(library ${barycert_libraries})
   get_property(needs GLOBAL PROPERTY barycert_needs_${library})
