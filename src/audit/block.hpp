@@ -36,7 +36,7 @@ struct JobResult {
     std::optional<Disagreement> disagreement;  ///< the first of two oracles
 };
 
-/// Adds cases [first, last). After a disagreement the kernels are not asked. Precondition: last - first <= block_size.
+/// Adds cases [first, last). After a disagreement the kernels are not asked. Requires: last - first <= block_size.
 void run_block(const Job& job, std::uint64_t first, std::uint64_t last, JobResult& result);
 
 }  // namespace barycert::audit

@@ -69,7 +69,7 @@ inline bool all_finite(Simplex s, const double* vertices, const double* point) {
            (point == nullptr || base::first_not_finite({point, d}) == d);
 }
 
-/// Names the first coordinate that is not finite. Precondition: there is one. `which` goes before it.
+/// Names the first coordinate that is not finite. Requires: there is one. `which` goes before it.
 inline Error not_finite_error(Simplex s, const double* vertices, const double* point, const std::string& which = {}) {
     const auto d = static_cast<std::size_t>(space_dimension(s)), all = d * static_cast<std::size_t>(vertex_count(s));
     if (const std::size_t i = base::first_not_finite({vertices, all}); i < all)

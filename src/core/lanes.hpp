@@ -31,7 +31,7 @@ std::size_t weight_lanes(Simplex s, const CaseBlock& cases, double* out, std::ui
 std::size_t value_lanes(Rounding rounding, Simplex s, const CaseBlock& cases, const double* const* values,
                         int components, double* out, std::uint32_t* undecided);
 
-/// Values as above; component k of the gradient of c goes to out[d * c + k][j]. Preconditions: triangle or tetrahedron;
+/// Values as above; component k of the gradient of c goes to out[d * c + k][j]. Requires: triangle or tetrahedron;
 /// every array has room for a multiple of 8 cases, or the count is 1.
 std::size_t gradient_lanes(Simplex s, const CaseBlock& cells, const double* const* values, int components,
                            double* const* out, std::uint32_t* undecided);

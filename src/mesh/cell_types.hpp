@@ -43,7 +43,7 @@ struct CellType {
 };
 const std::array<CellType, 256>& cell_types();
 
-/// Nodes at corners. Precondition: as many nodes as the type has.
+/// Nodes at corners. Requires: as many nodes as the type has.
 std::span<const Mesh::Index> corners_of(const CellType& type, std::span<const Mesh::Index> nodes);
 
 /// Appends the rings of a polygon, by its corners; those of a strip are triangles.

@@ -25,7 +25,7 @@ const char* inconsistency_of_axes(const Mesh& mesh);
 bool is_increasing(std::span<const double> coordinates);
 
 /// The part of that which check_mesh does not find otherwise: about what belongs to nodes and cells (markers, fields,
-/// nodes at mid-edges), and the index base. Precondition: whole nodes and cells of dimension 2 or 3.
+/// nodes at mid-edges), and the index base. Requires: whole nodes and cells of dimension 2 or 3.
 const char* inconsistency_of_extras(const Mesh& mesh, FieldValues values);
 
 /// The field is there and has `rows` rows; `of` as in "node".

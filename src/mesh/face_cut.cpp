@@ -148,7 +148,7 @@ private:
         return true;
     }
 
-    /// Precondition: the polygon is simple. Then there are two ears as long as there are four nodes and more: a polygon
+    /// Requires: the polygon is simple. Then there are two ears as long as there are four nodes and more: a polygon
     /// has triangulations without flat triangles (cut at a convex corner, to the node farthest inside its triangle, or
     /// along its base), and a triangle with one diagonal is an ear.
     std::vector<Triple> ears() const {

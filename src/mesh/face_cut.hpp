@@ -36,7 +36,7 @@ struct NumberedNodes {
 using NodeTriangle = std::array<Mesh::Index, 3>;
 
 /// Appends the triangles of the ring, turned as it is. False, and nothing is appended, if it is no simple polygon in
-/// any projection along an axis. Preconditions: three nodes or more, all different; finite coordinates.
+/// any projection along an axis. Requires: three nodes or more, all different; finite coordinates.
 bool cut_face(const NumberedNodes& nodes, std::span<const Mesh::Index> ring, std::vector<NodeTriangle>& triangles);
 
 /// The rule cuts the ring from its node of lowest number. Same preconditions.

@@ -42,7 +42,7 @@ constexpr int simplex_order(int dimension, std::size_t nodes) {
 /// has one part, a degenerate one. `otherwise`, if given, gets how many are cut, but not at their lowest node and those
 /// of their faces. `numbers`: of each node, in place of its index, that by which nodes are ordered.
 /// Returns the first polyhedron whose faces do not close, if there is one: each edge must be one of two faces.
-/// Precondition: nodes in range, as many as the types have.
+/// Requires: nodes in range, as many as the types have.
 std::optional<std::size_t> pull(Mesh& mesh, std::span<const Mesh::Index> numbers = {},
                                 std::size_t* otherwise = nullptr);
 

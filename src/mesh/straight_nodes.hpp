@@ -48,7 +48,7 @@ struct StraightPlace {
 
 /// `rounded` to double; `written` as a float or in decimal digits.
 enum class Straight : std::uint8_t { exactly, rounded, written, no };
-/// Precondition: all numbers are finite.
+/// Requires: all numbers are finite.
 Straight straightness(double coordinate, const StraightPlace& place, const Written& written);
 
 }  // namespace barycert::mesh

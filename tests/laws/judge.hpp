@@ -172,7 +172,7 @@ struct Verdict {
     }
 };
 
-/// The signs by CGAL::orientation of a kernel. Precondition: triangle or tetrahedron.
+/// The signs by CGAL::orientation of a kernel. Requires: triangle or tetrahedron.
 template <class Kernel>
 Verdict cgal_verdict(const Case& c) {
     Verdict v;

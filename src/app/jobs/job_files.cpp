@@ -37,7 +37,7 @@ void add_fields_to(std::vector<base::NamedFile>& inputs, const std::vector<Field
     for (const FieldFile& f : files) add_input(inputs, "field " + f.name, f.path);
 }
 
-/// Refuses an output of a step that is an input or another output. Precondition: has_step_place(output).
+/// Refuses an output of a step that is an input or another output. Requires: has_step_place(output).
 void check_step_outputs(const std::vector<base::NamedFile>& inputs, const std::string& output,
                         const std::vector<Step>& steps) {
     // By device and inode: there may be thousands of each. A file that does not exist is no input.

@@ -20,7 +20,7 @@ constexpr bool is_finding(std::size_t reason, Finding f) {
 }
 
 /// max |exact weight|, at least 1 / (number of weights), for they sum up to 1; grows as the cell gets flat. One beyond
-/// the largest double is compared as that one. Precondition: not degenerate.
+/// the largest double is compared as that one. Requires: not degenerate.
 inline double largest_weight(const OracleAnswer& exact) {
     double max = 0;
     for (const double w : exact.weights) max = std::max(max, std::fabs(w));
@@ -32,7 +32,7 @@ inline double relative_error(const OracleAnswer& exact, const Comparison& compar
     return exact.region == Region::degenerate ? -1 : comparison.weight_error / largest_weight(exact);
 }
 
-/// Precondition: all numbers of the case are finite, depths above zero.
+/// Requires: all numbers of the case are finite, depths above zero.
 inline Evaluation evaluate(const Kernel& kernel, const Case& c) {
     Evaluation e;
     e.exact = ask_oracle(c);

@@ -71,7 +71,7 @@ inline int plain_cost(const Case& c) {
 }
 
 /// x rounded to `bits` significant bits, to nearest, plus `steps` units of the last of them. The significand may gain a
-/// bit by carrying over. Precondition: x finite, not zero, bits >= 1.
+/// bit by carrying over. Requires: x finite, not zero, bits >= 1.
 inline double rounded_to(double x, int bits, int steps = 0) {
     int exponent = 0;
     const double m = std::frexp(x, &exponent);

@@ -19,7 +19,7 @@ namespace barycert::base {
 std::string shortest(double x);
 
 /// x with so many digits, as printf writes it in the C locale: behind the point (%.*f, %.*e), or in all (%.*g).
-/// Precondition: at most 60 digits.
+/// Requires: at most 60 digits.
 std::string rounded_text(double x, std::chars_format format, int digits);
 
 /// Hexadecimal floating-point form, exact: 0x1.8p+1.

@@ -50,7 +50,7 @@ struct Edge {
 /// The crossing where the filter is undecided, by exact signs. `s`: edge.position(j + 0.5).
 std::int32_t exact_crossing(const Edge& edge, std::int32_t j, std::int32_t width, double s);
 
-/// The crossing with row j, within [0, width]. Precondition: lower.y < j + 0.5 <= upper.y.
+/// The crossing with row j, within [0, width]. Requires: lower.y < j + 0.5 <= upper.y.
 inline std::int32_t crossing(const Edge& edge, std::int32_t j, std::int32_t width) {
     const double s = edge.position(j + 0.5);
     const double up = std::ceil(s);

@@ -39,10 +39,10 @@ public:
 
     std::size_t before(const char* at) const;
 
-    /// The beginning of the word before which `number` others begin. Precondition: there is one.
+    /// The beginning of the word before which `number` others begin. Requires: there is one.
     const char* find(std::size_t number) const;
 
-    /// Appends the run in parts of about a piece. Precondition: its words are there.
+    /// Appends the run in parts of about a piece. Requires: its words are there.
     void cut(const Run& run, std::vector<RunPart>& parts) const;
 
 private:

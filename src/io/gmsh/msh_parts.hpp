@@ -27,7 +27,7 @@ using TypeCounts = std::map<const ElementType*, std::size_t>;
 class TagIndex {
 public:
     TagIndex() = default;
-    /// Tags in any order, with gaps of any size. Precondition: fewer than 2^31.
+    /// Tags in any order, with gaps of any size. Requires: fewer than 2^31.
     explicit TagIndex(std::span<const std::int64_t> tags) {
         if (tags.empty()) return;
         const auto [low, high] = std::minmax_element(tags.begin(), tags.end());

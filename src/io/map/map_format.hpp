@@ -27,7 +27,7 @@ inline std::uint64_t map_word(const char* at) {
     return word;
 }
 
-/// Precondition: the size is a multiple of 8.
+/// Requires: the size is a multiple of 8.
 inline std::uint64_t map_checksum(std::string_view bytes, std::uint64_t h) {
     for (std::size_t i = 0; i < bytes.size(); i += 8) h = map_step(h, map_word(bytes.data() + i));
     return h;

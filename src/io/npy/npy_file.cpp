@@ -41,7 +41,7 @@ std::size_t npy_numbers(const char* at, std::size_t step, std::size_t count, con
                             [&]<class From>() { return all.template operator()<From>([](From x) { return x; }); });
 }
 
-/// The text at `at` without zeros at its end, characters in UTF-8; nothing if one is none. Precondition: is_text().
+/// The text at `at` without zeros at its end, characters in UTF-8; nothing if one is none. Requires: is_text().
 std::optional<std::string> npy_text(const char* at, const NpyType& type) {
     if (type.kind == 'S') {
         std::size_t size = type.size;

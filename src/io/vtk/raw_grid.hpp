@@ -35,7 +35,7 @@ struct RawArray {
     /// Which cells (or points) are ghosts.
     bool is_ghost_flags() const { return name == ghost_name && fault.empty() && !has_labels() && components == 1; }
     bool is_wide_integer() const { return type == NumberType::int64 || type == NumberType::uint64; }
-    /// Precondition: it has no labels.
+    /// Requires: it has no labels.
     std::vector<double>& numbers() { return std::get<std::vector<double>>(values); }
     const std::vector<double>& numbers() const { return std::get<std::vector<double>>(values); }
     std::vector<std::int64_t>* integers() { return std::get_if<std::vector<std::int64_t>>(&values); }

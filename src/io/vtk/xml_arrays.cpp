@@ -71,7 +71,7 @@ public:
         return std::string_view(to, size);
     }
 
-    /// The next bytes where they stand or, if is_unread(), would. Precondition: so many, no base64.
+    /// The next bytes where they stand or, if is_unread(), would. Requires: so many, no base64.
     std::string_view take_as_they_stand(std::size_t count) {
         const std::string_view taken = left_.substr(0, count);
         left_.remove_prefix(count);

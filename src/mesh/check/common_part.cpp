@@ -107,7 +107,7 @@ constexpr std::size_t max_bits = 4096;
 /// numerator / denominator * 2^exponent as it is written, and rounded.
 class Fraction {
 public:
-    /// Precondition: the denominator is positive.
+    /// Requires: the denominator is positive.
     Fraction(Number numerator, Number denominator, int exponent)
         : numerator_(std::move(numerator)), denominator_(std::move(denominator)) {
         if (numerator_ == 0) {

@@ -163,7 +163,7 @@ Found<T> up_to(std::size_t limit, std::size_t count, std::size_t block, Work wor
     return found;
 }
 
-/// Where the corners of a cell stand. Precondition: it is usable.
+/// Where the corners of a cell stand. Requires: it is usable.
 inline std::array<const double*, 4> corner_points(const Mesh& mesh, std::size_t cell) {
     std::array<const double*, 4> p{};
     for (std::size_t i = 0; i < mesh.corners(); ++i) p[i] = mesh.point(mesh.cells[cell * mesh.corners() + i]);
@@ -263,7 +263,7 @@ std::vector<CellPair> find_nested_parts(Checked& c, const std::vector<std::uint3
 std::vector<CellPair> find_overlapping_cells(Checked& c);
 
 /// The intersection of two closed cells: its dimension (-1: empty) and a point in its relative interior, computed in
-/// integers. If the interiors meet, that point lies in both. Precondition: finite, and neither degenerate. Slow: tens
+/// integers. If the interiors meet, that point lies in both. Requires: finite, and neither degenerate. Slow: tens
 /// of microseconds, or up to some milliseconds (coordinates over the whole range of doubles, numbers of 30,000 bits).
 CellContact common_part(const Mesh& mesh, const CellPair& cells);
 
@@ -312,7 +312,7 @@ void find_cracks(Checked& c, const BoundaryContacts& touching, const std::vector
 std::optional<MapReport> check_maps(const Checked& c);
 DelaunayReport check_delaunay(const Checked& c);
 
-/// Areas mean little where the mesh is not certified. Precondition: tetrahedra.
+/// Areas mean little where the mesh is not certified. Requires: tetrahedra.
 ConformityReport check_conformity(const Checked& c);
 
 }  // namespace barycert::check

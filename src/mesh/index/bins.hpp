@@ -31,7 +31,7 @@ public:
         }
     }
 
-    /// Precondition: x is finite.
+    /// Requires: x is finite.
     std::int32_t at(std::size_t k, double x) const {
         return static_cast<std::int32_t>(std::clamp(before_rounding(k, x), 0.0, static_cast<double>(max)));
     }

@@ -12,7 +12,7 @@ using Corners = std::array<const double*, 4>;
 /// False if a facet of one cell separates the interiors of both. May be true where they are disjoint.
 bool may_overlap(int d, const Corners& a, const Corners& b);
 
-/// True if the interiors have a point in common. Preconditions: not degenerate, coordinates finite.
+/// True if the interiors have a point in common. Requires: not degenerate, coordinates finite.
 bool interiors_meet(int d, const Corners& a, const Corners& b);
 
 /// A cell as an item of candidates.hpp, its nodes by place.

@@ -44,7 +44,7 @@ struct Triangles {
 /// Rule for triangles without an area.
 enum class Flat : std::uint8_t { left_out, kept };
 
-/// `corners` of `numbers`: three each. Preconditions: they are points, which are finite. Uses the threads of the
+/// `corners` of `numbers`: three each. Requires: they are points, which are finite. Uses the threads of the
 /// calling arena.
 Triangles place_triangles(std::span<const double> points, std::span<const Mesh::Index> corners,
                           std::span<const Mesh::Index> numbers, Flat of_flat = Flat::left_out);

@@ -68,7 +68,7 @@ struct CellBins {
 };
 
 /// Every cell whose box holds one of the points, and maybe others, ascending. Nothing if there are more than `max` of
-/// them, or if a corner is no node. Precondition: finite points. On all threads of the arena.
+/// them, or if a corner is no node. Requires: finite points. On all threads of the arena.
 std::optional<std::vector<Mesh::Index>> cells_at_points(const Mesh& mesh, std::span<const double> points,
                                                         std::size_t max);
 

@@ -32,7 +32,7 @@ public:
     std::size_t bytes() const { return cells_.bytes(); }
 
     /// The lowest cell of the mesh that has the vertex, edge or face on which a point with these signs lies. In a
-    /// simplicial complex it is the lowest that holds the point. Precondition: the signs are those of a point in the
+    /// simplicial complex it is the lowest that holds the point. Requires: the signs are those of a point in the
     /// closed cell, which is not degenerate.
     Place lowest_around(const CellIndex& index, Place cell, WeightSigns signs) const {
         const CellRecord& record = index.cells[cell];
@@ -178,7 +178,7 @@ struct LocatorData {
     std::unique_ptr<const core::AxisGrid> grid;  ///< of a mesh that is not listed; then the index is empty
     bool multilinear = false;                    ///< that grid
 
-    /// Its location, by that in straight simplices or parts of cells; none if it is not finite. Precondition: mapped.
+    /// Its location, by that in straight simplices or parts of cells; none if it is not finite. Requires: mapped.
     Location settle(const double* point, Location in_parts) const;
     /// Asks memory for what is read of maps of the owners that follow the first, of these nodes.
     void fetch_maps(const Place* owner, std::size_t count, const NodeRecord* nodes) const {
@@ -242,11 +242,11 @@ struct LocatorData {
     const CellTree& tree() const {
         return tree_.get([&] { return make_cell_tree(index); });
     }
-    /// Precondition: there is a cell.
+    /// Requires: there is a cell.
     const NearestTree& nearest_tree() const {
         return nearest_tree_.get([&] { return NearestTree(index, mapped.get()); });
     }
-    /// Precondition for these two: proved().
+    /// Both require proved().
     const NodeCells& node_cells() const {
         return node_cells_.get([&] { return NodeCells(index, proved()->degenerate); });
     }

@@ -70,7 +70,7 @@ struct FlatCorners {
 };
 FlatCorners corners_along(const std::array<const double*, 3>& at);
 
-/// The corners of the vertex or edge nearest to p, a bit each. Precondition for these: the triangle has no area.
+/// The corners of the vertex or edge nearest to p, a bit each. Both require: the triangle has no area.
 unsigned nearest_of_flat(const std::array<const double*, 3>& at, const double* p);
 /// The same for the vertex or edge on which p lies; 0 if it lies on none.
 unsigned part_of_flat(const std::array<const double*, 3>& at, const double* p);

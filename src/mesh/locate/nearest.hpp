@@ -18,7 +18,7 @@ class NearestTree {
 public:
     static constexpr std::size_t fan = 8;
 
-    /// Without cells that have maps. Precondition: there is a cell. Time O(cells).
+    /// Without cells that have maps. Requires: there is a cell. Time O(cells).
     explicit NearestTree(const CellIndex& index, const MappedCells* mapped = nullptr);
 
     std::size_t levels() const { return begin_.size() - 1; }
@@ -43,7 +43,7 @@ struct NearestWork {
     std::uint64_t comparisons = 0;  ///< in integers
 };
 
-/// As Locator::nearest, of cells or triangles in space, without those that have maps. Preconditions: coordinates are
+/// As Locator::nearest, of cells or triangles in space, without those that have maps. Requires: coordinates are
 /// finite; there is a cell.
 Nearest find_nearest(const CellIndex& index, const NearestTree& tree, const double* point, double limit,
                      NearestWork* work = nullptr, const MappedCells* mapped = nullptr);

@@ -26,7 +26,7 @@ public:
     const std::uint32_t* words() const { return words_.data(); }
     std::size_t bytes() const { return words_.size() * sizeof(std::uint32_t); }
 
-    /// False: no cell holds the point. Precondition: the point lies in the box of the cells.
+    /// False: no cell holds the point. Requires: the point lies in the box of the cells.
     bool may_hold(const CellIndex& index, const double* point) const {
         const auto at = [&](std::size_t k) {
             return static_cast<std::size_t>(index.bins.quantizer().at(k, point[k]) >> (Quantizer::bits - bits_[k]));

@@ -28,7 +28,7 @@ struct Edge {
 struct ExactCrossing {
     Integer of_in, of_out;
 
-    /// The number that is `in` and `out` at the ends, where g is zero, correctly rounded. Precondition: finite numbers.
+    /// The number that is `in` and `out` at the ends, where g is zero, correctly rounded. Requires: finite numbers.
     double value(double in, double out) const {
         // The weights of the ends are of_out / (of_in + of_out) and of_in / (of_in + of_out).
         const Unit unit{in, out};

@@ -48,7 +48,7 @@ struct SignPicture {
     std::uint64_t wrong = 0;  ///< points whose sign is not the exact one
 };
 
-/// The case of point (i, j) of the grid. Preconditions: not a segment; 0 <= i, j < side.
+/// The case of point (i, j) of the grid. Requires: not a segment; 0 <= i, j < side.
 Case sign_case(Simplex s, bool perspective, int i, int j);
 
 /// One picture a kernel that is not for segments, in the order of the kernels; before the first kernel of each kind of

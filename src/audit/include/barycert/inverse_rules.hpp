@@ -39,7 +39,7 @@ struct ExactInverse {
     double value = 0;
 };
 
-/// Precondition: a type of the rules (9, 12, 13, 14), and as many numbers as its nodes and axes ask for.
+/// Requires: a type of the rules (9, 12, 13, 14), and as many numbers as its nodes and axes ask for.
 ExactInverse exact_inverse(const InverseCase& c);
 
 struct InverseRule {
@@ -59,7 +59,7 @@ struct InverseFamily {
 const std::vector<InverseRule>& inverse_rules();
 const std::vector<InverseFamily>& inverse_families();
 
-/// Depends on these alone. Values are random, from -1 to 1. Precondition: a type of the rules (9, 12, 13, 14).
+/// Depends on these alone. Values are random, from -1 to 1. Requires: a type of the rules (9, 12, 13, 14).
 InverseCase make_inverse_case(const InverseFamily& family, std::uint8_t type, std::uint64_t seed, std::uint64_t index);
 
 /// Counts of a rule's answers to the cases of a family.

@@ -28,7 +28,7 @@ struct Witness {
     Case c;
 };
 
-/// Case `index` of a family. `witness`, if given, is told the case and how it is made. Preconditions:
+/// Case `index` of a family. `witness`, if given, is told the case and how it is made. Requires:
 /// family.applies_to(s); family.needs_mesh implies meshes.supplies(s).
 Case make_case(const Family& family, Simplex s, std::uint64_t seed, std::uint64_t index, const MeshSource& meshes,
                Witness* witness = nullptr);

@@ -51,13 +51,13 @@ public:
     bool has_value() const { return std::holds_alternative<T>(state_); }
     explicit operator bool() const { return has_value(); }
 
-    /// Precondition: has_value().
+    /// Requires: has_value().
     T& operator*() { return std::get<T>(state_); }
     const T& operator*() const { return std::get<T>(state_); }
     T* operator->() { return &std::get<T>(state_); }
     const T* operator->() const { return &std::get<T>(state_); }
 
-    /// Precondition: !has_value().
+    /// Requires: !has_value().
     const Error& error() const { return std::get<Error>(state_); }
 
     /// The value; throws Exception if there is none.

@@ -35,7 +35,7 @@ struct NearestInMaps {
     std::unique_ptr<PointOnSide> on = {};  ///< nullptr: `nearest` is a straight cell's
 };
 
-/// Preconditions: cells have maps; the point is finite, stays where it is, and is outside.
+/// Requires: cells have maps; the point is finite, stays where it is, and is outside.
 NearestInMaps nearest_in_maps(const LocatorData& data, const double* point, double limit);
 
 }  // namespace barycert::locate

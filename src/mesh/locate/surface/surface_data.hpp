@@ -35,7 +35,7 @@ public:
         if (times != SideCounts::parity) winding_ += times * crossing;
     }
     int sum() const { return winding_ + parity_; }
-    /// Both in one number. Precondition: fits().
+    /// Both in one number. Requires: fits().
     std::int16_t code() const { return static_cast<std::int16_t>(2 * winding_ + parity_); }
     bool fits() const { return winding_ > -16000 && winding_ < 16000; }
 
@@ -91,7 +91,7 @@ struct NearGroups {
         double low[3][8], high[3][8];
     };
 
-    /// Precondition: there is a triangle.
+    /// Requires: there is a triangle.
     explicit NearGroups(const CellIndex& index);
 
     bool usable = false;                ///< all coordinates are exact in that unit
@@ -122,7 +122,7 @@ struct NearCandidates {
 };
 
 /// All triangles that may have the nearest point, or one as near, if it is not farther than sqrt(square) in the unit.
-/// `hint`: a triangle to begin with; becomes one that is near. Precondition: usable; the point was taken.
+/// `hint`: a triangle to begin with; becomes one that is near. Requires: usable; the point was taken.
 void find_candidates(const NearGroups& groups, const double (&point)[3], double square, std::uint32_t& hint,
                      NearCandidates& found);
 
@@ -153,7 +153,7 @@ struct SurfaceData {
     std::unique_ptr<BoxGroups> boxes;  ///< of the triangles
 
     bool empty() const { return triangles.size() == 0; }
-    /// Preconditions for these: not empty.
+    /// These require: not empty.
     const NearestTree& far_tree() const {
         return far_tree_.get([&] { return NearestTree(triangles.index); });
     }
@@ -168,7 +168,7 @@ struct SurfaceData {
                bytes_of(far_tree_, near_groups_, side_map_);
     }
 
-    /// Exact, without the map. Precondition: finite.
+    /// Exact, without the map. Requires: finite.
     SurfaceLocation locate(const double* p) const;
     SurfaceLocation locate(const double* p, SideSum& side) const;
     SurfaceLocation locate_by_map(const double* p) const;

@@ -51,7 +51,7 @@ public:
     /// `in_parts`: owners are those in parts of cells, or as if all were straight.
     ChunkSampler(const SamplerData& data, const SampleOptions& options, const BlockRows& rows, bool in_parts = true);
 
-    /// Precondition: points with an owner are finite; owners are places of cells, or -1 outside. Where cells have maps,
+    /// Requires: points with an owner are finite; owners are places of cells, or -1 outside. Where cells have maps,
     /// rows are complete after flush().
     void operator()(const locate::PointRecord* points, std::size_t count, const locate::Place* owner,
                     const Feature* feature) {

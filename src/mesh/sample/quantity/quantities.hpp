@@ -36,7 +36,7 @@ struct QuantityShape {
     bool at_points = false;  ///< no field has it: it is computed for each point
 };
 
-/// Precondition: the choice has a field. Error: a step that cannot follow those before it.
+/// Requires: the choice has a field. Error: a step that cannot follow those before it.
 Result<QuantityShape> shape_of(const Mesh& mesh, const FieldChoice& choice);
 
 /// The fields of these names, or what expressions make of them; a field that has the whole text as its name goes
@@ -51,7 +51,7 @@ std::optional<std::string> with_other_name(std::string_view expression, std::str
 // Fields that are made of others.
 
 /// Takes the first `count` steps of the choice, as far as a field has what they give (see shape_of): what is left is
-/// computed for each point. The choice is then of a field in `made`, whose places must stay. Preconditions: shape_of
+/// computed for each point. The choice is then of a field in `made`, whose places must stay. Requires: shape_of
 /// accepts the choice, and the mesh is consistent; data of the field are as many as it needs.
 /// `lengths`: those of fields of nodes are made as well, of what the nodes have; at a point between them the length is
 /// another number than what is interpolated of these.
@@ -74,7 +74,7 @@ double euclidean_length(std::span<const double> v);
 /// volumes (areas in the plane; with straight sides): sum |V_c| f_c / sum |V_c|, exact and rounded once, to nearest,
 /// ties to even. Cells may have any orientation and may overlap; degenerate ones weigh nothing. NaN where a value of a
 /// cell that is not degenerate is not finite, and at nodes of no other cells. Without a name.
-/// Preconditions: the mesh is consistent, and the field has values for its cells.
+/// Requires: the mesh is consistent, and the field has values for its cells.
 Field nodal_mean(const Mesh& mesh, const Field& of_cells);
 
 }  // namespace barycert::sample
