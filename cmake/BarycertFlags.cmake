@@ -27,7 +27,7 @@ else()
   target_compile_options(barycert_flags INTERFACE ${barycert_strict_math})
 endif()
 target_compile_options(barycert_flags INTERFACE -Wall -Wextra -Wpedantic -Wconversion)
-# Of joined sources (barycert_join) each sees the others' names: a local name may be one of theirs.
+# Joined sources (barycert_join) see each other's names: a local name may be one of theirs.
 set(joined $<BOOL:$<TARGET_PROPERTY:UNITY_BUILD>>)
 target_compile_options(barycert_flags INTERFACE $<$<NOT:${joined}>:-Wshadow> $<$<AND:${joined},$<CXX_COMPILER_ID:GNU>>:-Wshadow=local>)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
@@ -51,7 +51,7 @@ if(BARYCERT_FUZZ STREQUAL "FAST")
   target_compile_options(barycert_flags INTERFACE -fsanitize=fuzzer-no-link -D_GLIBCXX_ASSERTIONS
     -fsanitize-coverage-ignorelist=${PROJECT_SOURCE_DIR}/tests/fuzz/not_counted.txt)
 elseif(BARYCERT_FUZZ)
-  # What the standard library checks of its callers is found, too.
+  # The standard library's checks of its callers are on, too.
   target_compile_options(barycert_flags INTERFACE -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all
     -fno-omit-frame-pointer -D_GLIBCXX_ASSERTIONS
     -fsanitize-coverage-ignorelist=${PROJECT_SOURCE_DIR}/tests/fuzz/not_counted.txt)

@@ -175,7 +175,7 @@ Resample and Barycert Check, and a reader of TetGen's files."
 endif()
 
 file(GENERATE OUTPUT ${PROJECT_BINARY_DIR}/debian/parts CONTENT "${package_parts}")
-# What CPack does not do: change logs, copyright, bills of materials, compressed manual pages.
+# Parts that CPack does not make: change logs, copyright, bills of materials, compressed manual pages.
 set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/cmake/BarycertPackageFiles.cmake)
 set(CPACK_BARYCERT_SOURCE ${PROJECT_SOURCE_DIR})
 set(CPACK_BARYCERT_BUILD ${PROJECT_BINARY_DIR})

@@ -18,7 +18,7 @@ add_custom_command(OUTPUT ${pages}/man1/barycert.1 ${completions} DEPENDS baryce
   COMMAND barycert_cli help --man ${pages}/man1 ${commands} VERBATIM)
 add_custom_target(barycert_pages ALL DEPENDS ${pages}/man1/barycert.1)
 
-# Of barycert-tetgen, which `barycert mesh` runs, where it is installed.
+# Pages of barycert-tetgen, which `barycert mesh` runs, where it is installed.
 set(of_tetgen "/barycert-(tetgen|mesh)\\.1$")
 install(DIRECTORY ${pages}/man1 DESTINATION ${CMAKE_INSTALL_MANDIR} COMPONENT cli REGEX ${of_tetgen} EXCLUDE)
 install(FILES ${pages}/bash/barycert DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT cli)

@@ -160,7 +160,7 @@ def main():
     if unknown:
         sys.exit("sbom.py: no package of Debian has " + ", ".join(unknown[:5]))
     sonames = needed_by(a.build, a.parts)
-    # Of a library there may be one for 32 bits as well; and Debian's packages know /lib where it is a link to /usr/lib.
+    # A library may be there for 32 bits as well; and Debian's packages know /lib where it is a link to /usr/lib.
     places = [top + said("dpkg-architecture", "-qDEB_HOST_MULTIARCH").strip() for top in ("/lib/", "/usr/lib/")]
     linked, found = packages_of(f"{place}/{name}" for place in places for name in sonames)
     missing = sorted(sonames - {os.path.basename(path) for path in found})

@@ -1,4 +1,4 @@
-/// What runs of kernels and programs leave behind.
+/// Traces that runs of kernels and programs leave behind.
 #pragma once
 
 #include <signal.h>

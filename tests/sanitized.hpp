@@ -1,4 +1,4 @@
-/// What sanitizers cost, for tests that bound time or memory.
+/// Cost of sanitizers, for tests that bound time or memory.
 #pragma once
 
 namespace barycert::testing {

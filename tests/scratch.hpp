@@ -38,7 +38,7 @@ public:
         return path(name);
     }
 
-    /// Of all in it and in its folders, sorted, from the folder on.
+    /// Names of all in it and in its folders, sorted, from the folder on.
     std::vector<std::string> names() const {
         std::vector<std::string> names;
         for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_))

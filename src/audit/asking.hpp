@@ -1,5 +1,5 @@
-/// What a kernel says of cases, whether it runs in this process or in one of its own; that compared with the oracle's
-/// answer; and the figures of many answers.
+/// Asks kernels for cases, whether they run in this process or in one of their own; compares what they say with the
+/// oracle's answer; has the figures of many answers.
 #pragma once
 
 #include "audit/kernels/host.hpp"
@@ -41,7 +41,7 @@ constexpr bool is_inside(Region r) {
     return r == Region::interior || r == Region::boundary;
 }
 
-/// That `word` is none of these names.
+/// Returns the error that `word` is none of these names.
 inline Error unknown_name(std::string what, std::string expected, const std::string& word,
                           const std::vector<std::string>& names, std::string_view lists = {}) {
     return file_error({}, std::move(what), std::move(expected), '"' + word + '"',
@@ -58,8 +58,8 @@ inline bool is_variant(const Kernel& kernel) {
 /// clock; others are timed in any case.
 Asked ask_kernel(const Kernel& kernel, std::span<const Case> cases, std::span<Statement> statements, bool timed);
 
-/// What the kernel does besides answering that case, in words; empty if nothing, or if it runs in this process and
-/// raised nothing. One that has been given up is asked all the same.
+/// Returns, in words, what the kernel does besides answering that case; empty if nothing, or if it runs in this process
+/// and raised nothing. Asks a kernel that has been given up, too.
 std::string incident_of(const Kernel& kernel, const Case& c);
 
 /// Region and value from status and weights, by the functions of a kernel that runs in this process. Requires an
@@ -78,7 +78,7 @@ Comparison compare(const Kernel& kernel, const Case& c, const OracleAnswer& answ
 /// NaN elsewhere. `region` is the exact one.
 double predicting_condition(const Case& c, Region region);
 
-/// What leaves no error to measure. (A kernel that touched memory beside its arrays may have died of it.)
+/// Findings that leave no error to measure. (A kernel that touched memory beside its arrays may have died of it.)
 inline constexpr std::array mute_findings{Finding::not_finite, Finding::false_declaration,
                                           Finding::crashed,    Finding::raised,
                                           Finding::hung,       Finding::out_of_bounds};

@@ -20,7 +20,7 @@ struct ResidualBound {
 using Long = long double;
 constexpr Long long_ulp = std::numeric_limits<Long>::epsilon();
 
-/// Rounded to a double that is not below it. What is a double already stays as it is.
+/// Rounded to a double that is not below it. A number that is a double already stays as it is.
 double up(double x) {
     return x;
 }

@@ -8,7 +8,7 @@ namespace barycert::audit {
 /// Long enough for the clock to tell, short enough to stay in the cache.
 inline constexpr std::uint64_t block_size = 256;
 
-/// What one thread has learnt of one kernel in one family.
+/// Results of one thread on one kernel in one family.
 struct BlockResult {
     KernelStatistics statistics;
     Prediction prediction;
@@ -26,7 +26,7 @@ struct Job {
     Judge judge;
 };
 
-/// What one thread has learnt in one job.
+/// Results of one thread in one job.
 struct JobResult {
     explicit JobResult(std::size_t count) : kernels(count) {}
 
@@ -36,7 +36,7 @@ struct JobResult {
     std::optional<Disagreement> disagreement;  ///< the first of two oracles
 };
 
-/// Adds cases [first, last). After a disagreement the kernels are not asked. Precondition: last - first <= block_size.
+/// Adds cases [first, last). After a disagreement the kernels are not asked. Requires: last - first <= block_size.
 void run_block(const Job& job, std::uint64_t first, std::uint64_t last, JobResult& result);
 
 }  // namespace barycert::audit

@@ -1,4 +1,4 @@
-// What an audit is made of, by names: kernels and families.
+// The parts of an audit, chosen by their names: kernels and families.
 
 #include "audit/asking.hpp"
 #include "barycert/audit_search.hpp"
@@ -26,7 +26,7 @@ Result<std::vector<Item>> chosen(const std::vector<std::string>& globs, std::vec
     return items;
 }
 
-/// What a rule is held against; nothing if a search has no such figure.
+/// The figure that a rule limits; nothing if a search has no such figure.
 std::optional<double> figure(const SearchReport& report, const std::string& name) {
     if (name == "any" || name == "wrong_cases") return static_cast<double>(report.wrong_cases);
     const bool finding = finding_named(name).has_value();

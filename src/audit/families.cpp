@@ -10,7 +10,7 @@ bool serves(const PreparedMesh& m, Simplex s) {
     return m.mesh.dimension == space_dimension(s);
 }
 
-/// A mesh that serves; each has the same chance, however large: small ones are the nasty ones. Precondition:
+/// A mesh that serves; each has the same chance, however large: small ones are the nasty ones. Requires:
 /// source.supplies(s).
 const PreparedMesh& pick(const MeshSource& source, Simplex s, base::Random& random) {
     const auto& meshes = source.meshes();

@@ -21,14 +21,14 @@ struct Claimant {
     ClaimRule rule = ClaimRule::exact;
 };
 
-/// What one thread has learnt.
+/// Results of one thread.
 struct ThreadTally {
     std::vector<ClaimResult> results;
     OracleCounts oracles;
     std::optional<Disagreement> disagreement;
 };
 
-/// Of two witnesses the first: faces, edges, vertices, in each by number.
+/// Keeps the first of two witnesses: faces, then edges, then vertices; in each by number.
 void keep_first(ClaimResult& result, ClaimFault fault, const ClaimWitness& witness) {
     ClaimWitness& kept = result.witnesses.try_emplace(fault, witness).first->second;
     if (std::pair(witness.feature, witness.index) < std::pair(kept.feature, kept.index)) kept = witness;
@@ -92,7 +92,7 @@ private:
         if (who.kernel != nullptr)
             return s.answered && s.status == 0 &&
                    (who.rule == ClaimRule::own ? is_inside(s.claimed) : by_weights(s.weights));
-        // Of exact arithmetic signs are exact where rounded weights may be zero.
+        // Takes the exact signs, because a rounded weight may be zero where the exact one is not.
         return who.rule == ClaimRule::strict  ? exact.region == Region::interior
                : who.rule == ClaimRule::exact ? is_inside(exact.region)
                                               : by_weights(exact.weights);

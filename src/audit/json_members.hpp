@@ -32,7 +32,7 @@
 
 namespace barycert::audit {
 
-/// What is there, as messages show it.
+/// The value that was found, as messages show it.
 inline std::string found_json(const nlohmann::json& j) {
     constexpr std::size_t longest = 40;
     // A whole file may hang on it: no more is printed than is shown.
@@ -84,7 +84,7 @@ struct JsonFile {
     const char *how_made = "", *remedy_of_members = "";
 };
 
-/// What `make` makes of the file's JSON. Errors: it cannot be read, is no JSON or nested deeper than any file of ours,
+/// Returns make(the file's JSON). Error: the file cannot be read, is no JSON or nested deeper than any file of ours,
 /// has another schema, or `make` throws an Exception.
 template <class Make>
 auto made_of_json(const std::string& path, const JsonFile& file, Make make)

@@ -22,7 +22,7 @@ std::optional<OracleAnswer> ask_core(const Case& c) {
     if (c.perspective) return std::nullopt;
     TierCounts tiers;
     const WeightSigns signs = weight_signs(c.simplex, c.vertices.data(), c.point.data(), &tiers);
-    // That a simplex is degenerate is for the integers to say.
+    // Integers decide whether a simplex is degenerate.
     if (tiers.exact != 0 || signs.degenerate()) return std::nullopt;
     const Result<Weights> weights = barycentric_weights(c.simplex, c.vertices.data(), c.point.data());
     if (!weights || weights->tier == Tier::exact) return std::nullopt;

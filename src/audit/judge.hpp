@@ -40,7 +40,7 @@ struct Disagreement {
     Case c;
 };
 
-/// Of two the one in the case of the lower index.
+/// Keeps, of two disagreements, the one in the case of lower index.
 inline void keep_first(std::optional<Disagreement>& first, const std::optional<Disagreement>& other) {
     if (other && (!first || other->index < first->index)) first = other;
 }

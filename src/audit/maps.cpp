@@ -37,7 +37,7 @@ std::vector<Mesh::Index> owners_in(const Locator& locator, const PreparedMesh& m
 }
 
 /// The first plane, from the middle outwards, that cuts at least half as much out of the mesh as any other; seen
-/// coarsely. Those near the ends are for plates.
+/// coarsely. Sections near the ends are for plates.
 MeshFrame best_frame(const Locator& locator, const PreparedMesh& m, int threads) {
     if (m.mesh.dimension == 2) return MeshFrame();
     const std::array<double, 3> extent{m.box[0].half(), m.box[1].half(), m.box[2].half()};  // the whole may overflow

@@ -1,4 +1,4 @@
-// What pictures of kernels show: errors by the size of triangles, signs beside a side.
+// The contents of pictures of kernels: errors by the size of triangles, signs beside a side.
 #include "barycert/audit_pictures.hpp"
 
 #include "audit/asking.hpp"

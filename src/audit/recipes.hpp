@@ -1,5 +1,5 @@
-/// What recipes share: simplices drawn from meshes (their cells, and faces and edges of these), and points made from
-/// vertices, in plain rounded arithmetic.
+/// Steps that recipes share: simplices drawn from meshes (their cells, and faces and edges of these), and points made
+/// from vertices, in plain rounded arithmetic.
 #pragma once
 
 #include "barycert/audit.hpp"
@@ -52,7 +52,7 @@ struct Draw {
 };
 
 /// A random cell, or a random face or edge of one. Nodal values are a component of one of the mesh's point fields,
-/// drawn as well, or random in [-1, 1) if it has none and where it is not finite. Precondition: meshes.supplies(s).
+/// drawn as well, or random in [-1, 1) if it has none and where it is not finite. Requires: meshes.supplies(s).
 Draw draw_any(const MeshSource& meshes, Simplex s, base::Random& random);
 
 /// A random cell at the hull, its vertices ordered so that the hull's facet is the one opposite to the last.

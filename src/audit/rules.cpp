@@ -1,5 +1,5 @@
-// Rules that answer cases of their own: all families of cases, on threads. Those on triangles in space are held against
-// the oracle; inverse maps against barycert's own, which are proved case by case.
+// Rules that answer cases of their own: all families of cases, on threads. Rules on triangles in space are compared
+// with the oracle; inverse maps with barycert's own, which are proved case by case.
 
 #include <cmath>
 
@@ -59,7 +59,7 @@ void audit_rules(RuleAudit<Rule, Tally>& audit, const Families& families, std::s
     }
 }
 
-/// What is right; nothing where either answer is.
+/// The right answer; nothing where either answer is right.
 std::optional<double> exact_answer(SurfaceQuestion question, const SurfaceCase& c) {
     if (question == SurfaceQuestion::distance) return oracle_distance(c.triangles[0], c.point.data());
     if (question == SurfaceQuestion::meet) return oracle_meet(c.triangles[0], c.triangles[1]);

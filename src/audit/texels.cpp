@@ -31,7 +31,7 @@ std::int64_t exact_repeat(double u, std::int64_t size) {
 /// The first cases: the rim of the 2x2 picture of the notes, and what is just below 0.
 constexpr std::array<std::pair<double, std::int64_t>, 2> known_failures{{{1, 2}, {-0x1p-60, 2}}};
 
-/// Of pictures, of powers of two and beside them, and the largest.
+/// Draws a size: of pictures, a power of two or beside one, up to the largest.
 std::int64_t texel_count(base::Random& random) {
     constexpr std::array<std::int64_t, 12> usual{1, 2, 3, 5, 7, 100, 255, 256, 257, 1000, 1920, 4096};
     const auto k = random.below(usual.size() + 4);
@@ -65,7 +65,7 @@ void add(TexelResult& result, double u, std::int64_t size, std::int64_t exact) {
 
 }  // namespace
 
-// Those of the literature as it has them, faults included, and exact ones.
+// Rules of the literature as it has them, faults included, and exact ones.
 const std::vector<TexelRule>& texel_rules() {
     static const std::vector<TexelRule> rules{
         {"texture.clamp-to-w", TexelWrap::clamp, "x = u w, clamped to [0, w]; texel x, rounded down",

@@ -8,7 +8,7 @@ using namespace audit;
 
 namespace {
 
-/// That a rule of this name is on: any but not_run.
+/// The figure that a rule of this name is about: any figure but not_run.
 std::optional<std::size_t> figure_named(std::string_view name) {
     if (name == "any") name = figures().front().name;
     const auto f = static_cast<std::size_t>(std::ranges::find(figures(), name, &Figure::name) - figures().begin());

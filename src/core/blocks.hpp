@@ -10,7 +10,7 @@
 
 namespace barycert::core {
 
-// What calls and batches require of their input, as Errors.
+// Checks of the input of calls and batches. A function returns the Error of the first requirement that is not met.
 
 /// All cells of a mesh, a batch without points: vertex i of cell j is node corners[n * j + i].
 struct MeshCells {
@@ -69,7 +69,7 @@ inline bool all_finite(Simplex s, const double* vertices, const double* point) {
            (point == nullptr || base::first_not_finite({point, d}) == d);
 }
 
-/// Names the first coordinate that is not finite. Precondition: there is one. `which` goes before it.
+/// Names the first coordinate that is not finite. Requires: there is one. `which` goes before it.
 inline Error not_finite_error(Simplex s, const double* vertices, const double* point, const std::string& which = {}) {
     const auto d = static_cast<std::size_t>(space_dimension(s)), all = d * static_cast<std::size_t>(vertex_count(s));
     if (const std::size_t i = base::first_not_finite({vertices, all}); i < all)
@@ -238,7 +238,8 @@ public:
           nodes_(nodes),
           arrays_(nodes * components_) {}
 
-    /// Of the corners of cases [first, first + count), as the first nodes of each case. Returns all arrays.
+    /// Gathers the values at the corners of cases [first, first + count), as the first nodes of each case. Returns all
+    /// arrays.
     template <class Batch>
     const double* const* block(const Batch& batch, std::size_t first, std::size_t count) {
         const auto n = static_cast<std::size_t>(vertex_count(batch.simplex));
@@ -249,7 +250,7 @@ public:
         return arrays_.data();
     }
 
-    /// Of the `number` nodes at indices(j) of each case j, as its nodes from `begin` on.
+    /// Gathers the values at the `number` nodes indices(j) of each case j, as the nodes of that case from `begin` on.
     template <class Indices>
     void gather(std::size_t begin, std::size_t number, std::size_t count, Indices indices) {
         const std::size_t components = components_, nodes = nodes_;
@@ -274,7 +275,7 @@ private:
     LaneArrays arrays_;
 };
 
-/// What the last tier met in a case.
+/// Facts about a case that the last tier found.
 struct ExactCase {
     bool degenerate = false;
     bool finite_values = true;

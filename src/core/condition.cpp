@@ -56,7 +56,7 @@ template <int d>
 /// A product of the determinant meets at most 8 roundings (3 differences, 2 products, 3 sums), each of at most 2^-52 in
 /// any rounding mode, and there are d! of them, none larger than the box: det is off by at most 8 * 2^-52 d! X Y Z, to
 /// first order. With d! X Y Z <= 2^38 |det| that is 2^-11 of |det|; 2^-10 leaves room for higher orders and the
-/// rounding of the box. What underflow adds, even if it flushes to zero: with extents below 2^150, 2^-1022 to a
+/// rounding of the box. Underflow, even if it flushes to zero, adds this: with extents below 2^150, 2^-1022 to a
 /// difference or product is 2^-720 to each product and so nothing to a det above 2^-650. Where anything overflowed or
 /// is NaN, a comparison fails; maxima and minima may forget a NaN, but then it is in det.
 template <int d>

@@ -33,10 +33,10 @@ public:
     /// Sign of weight i; 0 if degenerate.
     int sign(int i) const { return sign_of(i) * orientation(); }
 
-    /// Weight i correctly rounded. Precondition: not degenerate.
+    /// Weight i correctly rounded. Requires: not degenerate.
     double weight(int i) const;
 
-    /// sum of weight i times value i, correctly rounded. Preconditions: one value a vertex, not degenerate.
+    /// sum of weight i times value i, correctly rounded. Requires: one value a vertex, not degenerate.
     double interpolate(std::span<const double> values) const;
 
     /// Sign of that sum, not rounded, less t. The same preconditions.
@@ -69,12 +69,12 @@ Sign exact_insphere(const double* a, const double* b, const double* c, const dou
 double exact_dot(const double* x, const double* y, int count);
 
 /// The gradient of the field with `values` (one a vertex) in the cell at `vertices`, each component correctly rounded,
-/// to out[0 ... d - 1]. Returns false, and sets NaN, if the cell is degenerate. Precondition: triangle or tetrahedron.
+/// to out[0 ... d - 1]. Returns false, and sets NaN, if the cell is degenerate. Requires: triangle or tetrahedron.
 bool exact_gradient(Simplex simplex, const double* vertices, const double* values, double* out);
 
 /// Values of the fields whose component c at node i (mid-edge nodes behind corners) is values[nodes * c + i], correctly
 /// rounded, to out[0 ... components - 1]. Returns false, and leaves `out` as it was, if the cell is degenerate.
-/// Precondition: triangle or tetrahedron.
+/// Requires: triangle or tetrahedron.
 bool exact_quadratic(Simplex simplex, const double* vertices, const double* point, const double* values, int components,
                      double* out);
 

@@ -24,7 +24,7 @@ auto with_points(const double* const (&points)[count], bool common, Decide decid
     return with_lattice<count, d>([&](int i, int k) { return points[i][k]; }, common, decide);
 }
 
-/// sum += x * f. Precondition: x has fewer limbs than the sum.
+/// sum += x * f. Requires: x has fewer limbs than the sum.
 template <int N>
 void add_product(Fixed<N>& sum, const Integer& x, const Fixed<1>& f) {
     const bool negative = (x.sign() < 0) != f.negative();

@@ -52,7 +52,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace barycert::core::HWY_NAMESPACE {
 
-/// What the gradients of all components share.
+/// The terms that the gradients of all components share.
 template <int d, class D>
 struct CellMatrix {
     using V = hn::Vec<D>;

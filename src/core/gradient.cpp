@@ -20,7 +20,7 @@ bool has_part(Simplex s, const double* vertices, int i, int k) {
 }
 
 /// Gradients of the last tier in the cell at `vertices`: component k of that of field component c, whose value at
-/// vertex i is values[n * c + i][j], is out[d * c + k]. Precondition: coordinates finite.
+/// vertex i is values[n * c + i][j], is out[d * c + k]. Requires: coordinates finite.
 ExactCase exact_gradients(Simplex s, const double* vertices, const double* const* values, std::size_t j, int components,
                           double* out) {
     const int n = vertex_count(s), d = space_dimension(s);

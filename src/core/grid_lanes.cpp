@@ -18,7 +18,7 @@
 // N / W as q = h i with i = 1 / W.h, off by 2 u F, and c = ((h - p) - e + (l - q W.l)) i where q W.h = p + e and h - p
 // are exact: with l 9 it rounds by 4 + 1 + 10 + 14, and the factor i by 3 times 14: with 18.1 for W and 80 for N
 // 169 u^2 F; with l 19 by 49 and 3 times 24: with 435 825 u^2 F. Taken are 176 and 848.
-// Ranges outside which nothing is certain: w in [2^-200, 2^200], F in [2^-300, 2^300] or 0. What underflow loses,
+// Ranges outside which nothing is certain: w in [2^-200, 2^200], F in [2^-300, 2^300] or 0. The loss by underflow,
 // 2^-1070 a product, times the w to come, is below 2^-60 of these bounds; nothing overflows.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/grid_lanes.cpp"
@@ -193,7 +193,7 @@ struct GridLanes {
         inverse = set(1) / volume.high;
     }
 
-    /// Of the eight corners of the cell; returns the largest.
+    /// Loads the values at the eight corners of the cell; returns the largest in size.
     HWY_INLINE V load(const NodeComponent& field, V (&f)[8]) const {
         V most = hn::Zero(tag);
         for (std::size_t j = 0; j < 4; ++j) {

@@ -9,7 +9,7 @@ namespace barycert::core {
 
 /// Cells between planes across the axes, the first axis running fastest.
 struct AxisGrid {
-    /// Precondition: coordinates, which must stay, increase, and are at least two along each axis.
+    /// Requires: coordinates, which must stay, increase, and are at least two along each axis.
     AxisGrid(int dimension, const std::array<std::vector<double>, 3>& axes);
 
     std::size_t dimension;
@@ -21,7 +21,7 @@ struct AxisGrid {
     /// The lowest node of a cell.
     std::size_t node_of(std::size_t cell) const;
     /// The lower plane of the cell along an axis that holds x, the lowest if there are two, near a guess perhaps.
-    /// Precondition: one does.
+    /// Requires: one does.
     std::size_t find(std::size_t axis, double x, std::int64_t guess) const;
 };
 

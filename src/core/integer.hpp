@@ -67,7 +67,7 @@ public:
         return *this;
     }
 
-    /// mantissa * 2^shift with a sign. Precondition: shift + 128 <= 64 * capacity.
+    /// mantissa * 2^shift with a sign. Requires: shift + 128 <= 64 * capacity.
     Integer(bool negative, std::uint64_t mantissa, int shift) : negative_(negative) {
         if (mantissa == 0) return;
         const int whole = shift / 64, part = shift % 64;
@@ -150,7 +150,7 @@ private:
         return r;
     }
 
-    /// |x| + |y|. Precondition: x.size_ >= y.size_.
+    /// |x| + |y|. Requires: x.size_ >= y.size_.
     static Integer add(const Integer& x, const Integer& y) {
         Integer r;
         Carry carry = 0;
@@ -161,7 +161,7 @@ private:
         return r;
     }
 
-    /// |x| - |y|. Precondition: |x| >= |y|.
+    /// |x| - |y|. Requires: |x| >= |y|.
     static Integer subtract(const Integer& x, const Integer& y) {
         Integer r;
         Carry borrow = 0;
@@ -247,7 +247,7 @@ using Magnitude = std::span<const std::uint64_t>;
 
 /// (numerator / denominator) * 2^exponent with a sign, rounded to nearest, ties to even, subnormal results and overflow
 /// to infinity included. An exact zero gives +0; what is smaller than half of the smallest subnormal gives a zero with
-/// its sign. Works on bits alone: the floating-point environment has no influence. Preconditions: denominator not zero;
+/// its sign. Works on bits alone: the floating-point environment has no influence. Requires: denominator not zero;
 /// both fit an Integer.
 double round_quotient(bool negative, Magnitude numerator, Magnitude denominator, int exponent);
 

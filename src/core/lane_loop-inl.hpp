@@ -66,7 +66,7 @@ HWY_INLINE std::size_t for_lanes(std::size_t count, std::uint32_t* undecided, St
     return list.count;
 }
 
-/// The same without a tail. Precondition: what a step reads and writes has room for a multiple of 8 cases, or count is
+/// The same without a tail. Requires: what a step reads and writes has room for a multiple of 8 cases, or count is
 /// 1.
 template <class Step>
 HWY_INLINE std::size_t for_padded_lanes(std::size_t count, std::uint32_t* undecided, Step step) {
@@ -111,7 +111,7 @@ HWY_INLINE hn::Vec<D> load_some(D tag, const hn::TFromD<D>* from, std::int32_t c
 #endif
 }
 
-/// Stores the first `count` lanes. Precondition: 0 <= count <= all.
+/// Stores the first `count` lanes. Requires: 0 <= count <= all.
 template <class D>
 HWY_INLINE void store_some(D tag, hn::Vec<D> value, hn::TFromD<D>* to, std::int32_t count) {
     static_assert(sizeof(hn::TFromD<D>) >= 4);

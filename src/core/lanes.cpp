@@ -140,7 +140,7 @@ std::string target_name(std::int64_t target) {
     return hwy::TargetName(target);
 }
 
-/// Those that this build has and this processor can run. Asked once: asking Highway again would choose anew.
+/// The targets that this build has and this processor can run. Asked once: asking Highway again would choose anew.
 const std::vector<std::int64_t>& supported_targets() {
     static const std::vector<std::int64_t> targets = hwy::SupportedAndGeneratedTargets();
     return targets;

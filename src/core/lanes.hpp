@@ -31,7 +31,7 @@ std::size_t weight_lanes(Simplex s, const CaseBlock& cases, double* out, std::ui
 std::size_t value_lanes(Rounding rounding, Simplex s, const CaseBlock& cases, const double* const* values,
                         int components, double* out, std::uint32_t* undecided);
 
-/// Values as above; component k of the gradient of c goes to out[d * c + k][j]. Preconditions: triangle or tetrahedron;
+/// Values as above; component k of the gradient of c goes to out[d * c + k][j]. Requires: triangle or tetrahedron;
 /// every array has room for a multiple of 8 cases, or the count is 1.
 std::size_t gradient_lanes(Simplex s, const CaseBlock& cells, const double* const* values, int components,
                            double* const* out, std::uint32_t* undecided);
@@ -53,8 +53,9 @@ constexpr int quadratic_edge(int i, int j) {
     return -1;
 }
 
-/// What plain lanes leave undecided: out[components * j + c] of the cases j in `undecided`, where one of the `nodes`
-/// values of component c is not finite. What has no part in the value is left out; where one has, it is NaN.
+/// Computes the values that plain lanes leave undecided: out[components * j + c] of the cases j in `undecided`, where
+/// one of the `nodes` values of component c is not finite. Leaves out a node that has no part in the value; where such
+/// a node has a part, the value is NaN.
 void mend_plain_values(Simplex s, const CaseBlock& cases, std::span<const std::uint32_t> undecided,
                        const double* const* values, int nodes, int components, double* out);
 

@@ -47,7 +47,7 @@ struct Relative {
 template <class T, class U = T>
 using Product = decltype(std::declval<T>() * std::declval<U>());
 
-/// What numerators and denominator are made of: products of 2 (segment, triangle), 3 or 4 differences.
+/// The type of numerators and denominator, which are made of products of 2 (segment, triangle), 3 or 4 differences.
 template <Simplex s, class T>
 using Numerator =
     std::conditional_t<s == Simplex::tetrahedron, Product<T, Product<T>>,

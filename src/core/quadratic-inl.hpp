@@ -18,11 +18,12 @@
 // So M (6 eta A + 50 u^2 A^2) bounds both, the roundings of its own evaluation and of A and M (below 1 + 20 u)
 // included.
 //
-// Ranges; outside them nothing is certain. Those of the weights; eta <= 2^-10; A <= 2^100; M in [2^-800, 2^700] or 0:
-// then all values are zero, and so is the result. |f_i| <= M, |4 f_ij| <= 3.1 M: products stay below 2^1000, and their
-// factors below 2^903, so that Dekker's product is as good as the fused one and the tiers are the same on all targets.
-// Underflow: each operation of a product loses at most 2^-1070; an inner one is multiplied by at most A. That is below
-// 2^-1060 (1 + A) in all, against u^2 A^2 M >= 2^-907 A^2. A NaN or infinity among the values makes the sum NaN.
+// Ranges; outside them nothing is certain. They are those of the weights; eta <= 2^-10; A <= 2^100; M in [2^-800,
+// 2^700] or 0: then all values are zero, and so is the result. |f_i| <= M, |4 f_ij| <= 3.1 M: products stay below
+// 2^1000, and their factors below 2^903, so that Dekker's product is as good as the fused one and the tiers are the
+// same on all targets. Underflow: each operation of a product loses at most 2^-1070; an inner one is multiplied by at
+// most A. That is below 2^-1060 (1 + A) in all, against u^2 A^2 M >= 2^-907 A^2. A NaN or infinity among the values
+// makes the sum NaN.
 //
 // Included once per SIMD target.
 #if defined(BARYCERT_CORE_QUADRATIC_INL_HPP) == defined(HWY_TARGET_TOGGLE)
@@ -42,7 +43,7 @@ namespace barycert::core::HWY_NAMESPACE {
 template <Simplex s>
 inline constexpr int quadratic_nodes = vertex_count(s) + mid_node_count(s);
 
-/// What the values of all components share.
+/// The terms that the values of all components share.
 template <Simplex s, class D>
 struct QuadraticWeights {
     using V = hn::Vec<D>;

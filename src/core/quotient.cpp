@@ -5,7 +5,7 @@
 namespace barycert::core {
 namespace {
 
-/// Rounds (q + t) * 2^exponent, 0 <= t < 1, where t > 0 exactly if `inexact`. Precondition: q >= 2^62.
+/// Rounds (q + t) * 2^exponent, 0 <= t < 1, where t > 0 exactly if `inexact`. Requires: q >= 2^62.
 double round_bits(bool negative, std::uint64_t q, bool inexact, int exponent) {
     const std::uint64_t sign = negative ? std::uint64_t{1} << 63 : 0;
     const int top = static_cast<int>(std::bit_width(q)) - 1 + exponent;  // 2^top <= value < 2^(top + 1)
@@ -28,7 +28,7 @@ int bit_length(Magnitude x) {
     return size == 0 ? 0 : static_cast<int>(64 * size) - std::countl_zero(x[size - 1]);
 }
 
-/// x * 2^bits in `size` limbs. Precondition: it fits, bits >= 0.
+/// x * 2^bits in `size` limbs. Requires: it fits, bits >= 0.
 void shift_left(Magnitude x, int bits, std::uint64_t* out, int size) {
     const int whole = bits / 64, part = bits % 64;
     std::fill_n(out, whole, 0);

@@ -257,8 +257,8 @@ HWY_INLINE Refined<s, D> refine_projected(D tag, const Absolute<s, V>& c) {
     return out;
 }
 
-/// Of x + (y - error) and x + (y + error), where they round to the same double: rounding is monotonic, so that is the
-/// rounding of every number between them. Where not, `certain` is cleared.
+/// Returns the double to which both x + (y - error) and x + (y + error) round: rounding is monotonic, so every number
+/// between them rounds to it. Clears `certain` where they round to different doubles.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V rounded_if_certain(V x, V y, V error, hn::Mask<D>& certain) {
     const V low = x + (y - error), high = x + (y + error);
@@ -286,7 +286,7 @@ HWY_INLINE hn::Vec<D> weight(D tag, const Refined<s, D>& r, int i, hn::Mask<D>& 
 /// 25 u^2 L F; sum c_i f_i is off by n eta F and rounds by 4 u F sum |c_i|; adding both, and adding the error in the
 /// end, round by twice u (5 u L F + F sum |c_i|). That is n eta F + 6 u F sum |c_i| + 35 u^2 L F. Now sum |c_i| is at
 /// most 12.1 b + 3.1 u (1 + L) (in the notation above), of which n eta covers the first part, 73 u b; or, projected,
-/// 5.5 u L. What is left is below u^2 (35 + 33)(1 + L) F < 2^-98 (1 + L) F.
+/// 5.5 u L. The rest is below u^2 (35 + 33)(1 + L) F < 2^-98 (1 + L) F.
 template <Simplex s, class D, class V = hn::Vec<D>>
 HWY_INLINE V value(D tag, const Refined<s, D>& r, const V (&f)[vertex_count(s)], hn::Mask<D>& certain) {
     constexpr int n = vertex_count(s);

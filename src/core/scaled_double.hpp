@@ -18,7 +18,7 @@ struct ScaledDouble {
     bool negative;
 };
 
-/// The parts of x, without branches. Precondition: finite.
+/// The parts of x, without branches. Requires: finite.
 inline ScaledDouble scaled(double x) {
     const auto bits = std::bit_cast<std::uint64_t>(x);
     const int biased = static_cast<int>(bits >> 52 & 0x7ff);
@@ -49,10 +49,10 @@ struct Unit {
 
     /// All numbers are below 2^bits() in this unit; below 1 if they are all zero.
     int bits() const { return top - exponent; }
-    /// Of two, that the unit is; 0 if all numbers are zero.
+    /// The power of two that the unit is; 0 if all numbers are zero.
     int power() const { return exponent == ScaledDouble::none ? 0 : exponent - 1074; }
 
-    /// x as a multiple of this unit. Preconditions: x was added; Fixed<N> has more than bits() bits.
+    /// x as a multiple of this unit. Requires: x was added; Fixed<N> has more than bits() bits.
     template <class T>
     T multiple(const ScaledDouble& x) const {
         const int shift = x.mantissa == 0 ? 0 : x.exponent - exponent;

@@ -2,7 +2,7 @@
 /// header that includes one.
 ///
 /// Three on x86-64: what every processor has (emulated by Highway 1.0, for which SSE2 lacks too much; with 1.2 SSE2
-/// itself), AVX2 with fused multiply-add, AVX-512. The ones between cost compile time and serve few. Those above
+/// itself), AVX2 with fused multiply-add, AVX-512. The ones between cost compile time and serve few. Targets above
 /// AVX-512 (AVX3_DL) add nothing here, but must be named: where the compiler is told of a processor that has them
 /// (-march=native), Highway takes them for the least there is, and then refuses to compile for want of them among the
 /// targets to choose from. Vectors without a size (SVE, RVV) do not go into structs.

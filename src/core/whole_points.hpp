@@ -19,7 +19,7 @@ using WholeNumber =
                                   boost::multiprecision::et_off>;
 using WholeVector = base::Vector3<WholeNumber>;
 
-/// x as a multiple of the unit. Precondition: it was added.
+/// x as a multiple of the unit. Requires: it was added.
 inline WholeNumber whole(double x, const Unit& unit) {
     const ScaledDouble parts = scaled(x);
     WholeNumber n = parts.mantissa;
@@ -36,7 +36,7 @@ public:
     void add(const double* p) {
         for (int k = 0; k < 3; ++k) unit_.add(p[k]);
     }
-    /// Precondition: it was added.
+    /// Requires: it was added.
     WholeVector at(const double* p) const { return {whole(p[0], unit_), whole(p[1], unit_), whole(p[2], unit_)}; }
     int exponent() const { return unit_.power(); }
 
@@ -44,7 +44,7 @@ private:
     Unit unit_;
 };
 
-/// numerator / denominator * 2^exponent, correctly rounded. Precondition: the denominator is positive.
+/// numerator / denominator * 2^exponent, correctly rounded. Requires: the denominator is positive.
 template <class Number>
 double rounded_quotient(Number numerator, Number denominator, int exponent) {
     if (numerator == 0) return 0;

@@ -14,7 +14,7 @@ double times_power_of_ten(double digits, int exponent) {
     return base::parse_double(base::shortest(digits) + "e" + std::to_string(exponent)).value_or(0);
 }
 
-/// Of the first digit.
+/// The power of ten of the first digit.
 int exponent_of(double x) {
     return x == 0 ? 0 : static_cast<int>(std::floor(std::log10(std::fabs(x))));
 }

@@ -14,15 +14,15 @@ struct Tick {
 /// `max` of them (at least 2).
 std::vector<double> round_numbers(double low, double high, int max);
 
-/// The same with what they are called, in four digits at most. What these leave out stands in `common`: a power of ten
-/// that all are to be multiplied by, "×10⁻³", or a number to be added, "+1234500".
+/// Ticks with labels, of four digits at most. `common` has what these leave out: a power of ten by which all are to be
+/// multiplied, "×10⁻³", or a number to be added, "+1234500".
 struct Ticks {
     std::vector<Tick> ticks;
     std::string common = {};
 };
 Ticks round_ticks(double low, double high, int max);
 
-/// Of an axis of log10: powers of ten in [low, high], with 2 and 5 times each where they are few.
+/// Ticks of an axis of log10: powers of ten in [low, high], with 2 and 5 times each where they are few.
 std::vector<Tick> log_ticks(double low, double high);
 
 /// "⁻¹²": the number, rounded, as an exponent.

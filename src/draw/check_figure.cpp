@@ -1,4 +1,4 @@
-// What of a figure cannot be drawn.
+// Finds what cannot be drawn of a figure.
 
 #include <cmath>
 

@@ -43,7 +43,7 @@ std::string label_text(const ColourBar& bar, std::size_t i) {
     return i < bar.names.size() ? bar.names[i] : base::shortest(bar.scale.labels[i]);
 }
 
-/// What stands beside the colours.
+/// The texts beside the colours.
 std::vector<std::string> texts_of(const ColourBar& bar, double height) {
     std::vector<std::string> texts;
     if (bar.none) texts.emplace_back("no value");

@@ -23,7 +23,7 @@ struct ColourScale {
     Rgba no_value{150, 150, 150, 255};
 
     Rgba operator()(double x) const;
-    /// 0 at `low`, 1 at `high`. Precondition: x > 0 if `log`.
+    /// 0 at `low`, 1 at `high`. Requires: x > 0 if `log`.
     double place(double x) const;
 };
 

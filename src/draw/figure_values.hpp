@@ -11,7 +11,7 @@ namespace barycert::draw {
 /// Values of a grid as colours, row by row from the top.
 class GridImage {
 public:
-    /// Precondition: the grid is consistent.
+    /// Requires: the grid is consistent.
     GridImage(const FigureGrid& grid, const ColourScale& scale);
 
     std::size_t width() const { return width_; }

@@ -8,7 +8,7 @@
 namespace barycert::draw {
 namespace {
 
-/// Of the window that a figure may fill; beside a box its numbers have room.
+/// The part of the window that a figure may fill; the numbers beside a box need room.
 double part_of(const Figure& f) {
     if (f.dimension == 2 && (f.options.window || f.options.scale > 0)) return 1;
     if (f.options.axes == Axes::box && f.dimension == 3) return 0.76;

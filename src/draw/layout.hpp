@@ -14,7 +14,7 @@ enum class Form : std::uint8_t {
     vectors,  ///< polygons and lines in its place, where View::is_flat
 };
 
-/// The window with what the camera sees, axes, the colour bar, the title. Precondition: check(figure).
+/// The window with what the camera sees, axes, the colour bar, the title. Requires: check(figure).
 Result<Picture> laid_out(const Figure& figure, Form form, FigureCounts& counts);
 
 }  // namespace barycert::draw

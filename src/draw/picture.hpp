@@ -18,7 +18,7 @@ struct Pixel {
 
 enum class Mark : unsigned char { circle, square, diamond, up, down, cross };
 
-/// What is drawn, by one look. Which members count depends on `kind`.
+/// One thing that is drawn, in one look. `kind` says which members count.
 struct PictureItem {
     enum class Kind : unsigned char { lines, area, bar, circle, text, image };
     Kind kind;
@@ -102,7 +102,7 @@ struct Look {
     char anchor = 's';       ///< of text: s, m or e
 };
 
-/// Of some classes, each overriding what those before it say. `dark`: on a dark ground.
+/// Returns the look of some classes, each overriding what those before it say. `dark`: on a dark ground.
 Look look_of(std::string_view classes, bool dark);
 
 /// Colours of curves and classes, which most eyes tell apart (Okabe's and Ito's); one after the other.

@@ -25,7 +25,7 @@ struct Space {
         for (std::size_t k = 0; k < dimension; ++k) at[k] = 2 * ((0.5 * point[k] - 0.5 * box[k].middle()) / half);
         return at;
     }
-    /// Of the box; bit k of the index is the side along axis k.
+    /// A corner of the box; bit k of the index is the side along axis k.
     Vector3 corner(unsigned i) const {
         Vector3 at;
         for (std::size_t k = 0; k < 3; ++k) at[k] = (i >> k & 1U) != 0 ? box[k].high : box[k].low;
@@ -50,7 +50,7 @@ public:
     Pixel at(const Vector3& point) const { return seen(space_(point.data())); }
     /// The height of a pixel of the figure there, in the normalised unit.
     double pixel_at(const Vector3& normalised) const;
-    /// What the window shows of an axis of the plane.
+    /// The range of an axis of the plane that the window shows.
     std::array<double, 2> seen(std::size_t axis) const;
     const Space& space() const { return space_; }
     const ViewAxes& axes() const { return axes_; }

@@ -1,4 +1,4 @@
-/// What the system gives and takes back: open files, mapped memory.
+/// Owners of what the system lends: open files, mapped memory.
 #pragma once
 
 #include <sys/mman.h>

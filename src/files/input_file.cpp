@@ -115,7 +115,7 @@ Result<std::size_t> read_at(int descriptor, std::uint64_t offset, std::span<char
 }
 
 Status check_beginning(std::string_view block, Text text, const std::string& path) {
-    // Of a smaller file its reader says more.
+    // The reader says more about a smaller file.
     if (text == Text::none || block.size() < first_block) return Done{};
     const std::string_view line = text != Text::head ? block : block.substr(0, block.find_first_of("\n>"));
     const auto blank = [](char c) { return c == ' ' || (c >= '\t' && c <= '\r'); };
@@ -189,13 +189,13 @@ Result<MappedFile> MappedFile::open(const std::string& path, int threads, Text t
 }
 
 Result<MappedFile> MappedFile::read(const InputFile& file, const std::string& path, std::size_t most, int threads) {
-    // What a thread reads at a time: a few large pages.
+    // A thread reads a few large pages at a time.
     constexpr std::size_t block_size = 4 * large_page;
     const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
     MappedFile result;
     const auto all = static_cast<std::size_t>(file.size());
     const std::size_t size = std::min(all, most), whole = (all + page - 1) / page * page + page;
-    // Of what is not read, there need be no memory.
+    // Bytes that are not read need no memory.
     const int reserve = size == all ? 0 : MAP_NORESERVE;
     result.memory_ = map_memory(whole, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | reserve);
     result.size_ = all;

@@ -17,7 +17,7 @@
 
 namespace barycert::base {
 
-/// What the first block of a file must be, so that gigabytes of zeros or of something else are an error at once.
+/// Kinds of first blocks that a reader accepts, so that gigabytes of zeros or of something else are an error at once.
 enum class Text : std::uint8_t {
     none,   ///< nothing
     words,  ///< something but blanks
@@ -27,7 +27,8 @@ enum class Text : std::uint8_t {
 };
 inline constexpr std::size_t first_block = std::size_t{1} << 16;
 
-/// What the format says to the first block of a larger file, of `size` bytes: an error of its header. A NUL follows.
+/// Checks the header in the first block of a larger file of `size` bytes. Error: the header is wrong. A NUL follows the
+/// block.
 using Header = std::function<Status(std::string_view block, std::uint64_t size)>;
 
 /// Whether `block`, the first of a file, can begin one: no NUL byte, a word that ends. A smaller block always can.
@@ -44,7 +45,7 @@ Status unchanged(int descriptor, const FileState& then, const std::string& path)
 /// Fills `bytes` from `offset` on and returns how many there were: fewer only where the file ends. `path`: for errors.
 Result<std::size_t> read_at(int descriptor, std::uint64_t offset, std::span<char> bytes, const std::string& path);
 
-/// What to do about a pipe or device where only a regular file will do.
+/// The remedy for a pipe or device where only a regular file will do.
 inline constexpr const char* save_first = "save the data to a regular file first";
 
 /// A regular file open for reading; closed at the end.
@@ -77,7 +78,7 @@ private:
     FileState then_;
 };
 
-/// What is read of a pipe at most, for it does not tell its size: 256 MiB.
+/// The most that is read of a pipe, which does not tell its size: 256 MiB.
 inline constexpr std::size_t longest_pipe = std::size_t{1} << 28;
 
 /// All bytes of a regular file, or of a pipe up to its end. Errors: missing, unreadable, a folder, a device, a pipe
@@ -85,10 +86,10 @@ inline constexpr std::size_t longest_pipe = std::size_t{1} << 28;
 Result<std::string> read_file(const std::string& path, std::size_t longest = longest_pipe, Text text = Text::none,
                               const Header& header = {});
 
-/// That the system could not open or read the file, in its words, and what to do.
+/// Returns the error that the system could not open or read the file, in the system's words, and what to do.
 Error read_failure(const std::string& path, int error_number);
 
-/// That a text ends in a number and not in a line end: what is there may be cut, and 0.2 the beginning of 0.25.
+/// Returns the error that a text ends in a number and not in a line end: it may be cut, and 0.2 the beginning of 0.25.
 Error unended_number(std::string path, std::size_t line);
 
 Error too_little_memory(std::string path);

@@ -10,7 +10,8 @@ struct NamedFile {
     std::string what, path;
 };
 
-/// What the name of an output has where each step of a series has a file of its own.
+/// The parts of an output's name that become the number and the time of a step, where each step of a series has its own
+/// file.
 inline constexpr std::string_view step_place = "{step}", time_place = "{time}";
 
 /// True if both paths lead to one file, or would once it is made. An empty one names none; "-" is the standard stream.

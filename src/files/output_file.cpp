@@ -18,7 +18,8 @@
 
 namespace barycert::base {
 
-/// Of an unfinished file, in a list that only grows: a signal handler may walk it at any moment, without a lock.
+/// The name of an unfinished file, in a list that only grows: a signal handler may walk it at any moment, without a
+/// lock.
 struct BegunName {
     const std::string path;
     std::atomic<bool> live{true};
@@ -46,7 +47,7 @@ std::string path_of(int descriptor) {
     return "/proc/self/fd/" + std::to_string(descriptor);
 }
 
-/// Of unfinished files, removed when a signal ends the process.
+/// The names of unfinished files, which are removed when a signal ends the process.
 std::atomic<BegunName*> names{nullptr};
 static_assert(std::atomic<BegunName*>::is_always_lock_free && std::atomic<bool>::is_always_lock_free,
               "the signal handler reads them");

@@ -46,13 +46,14 @@ public:
     /// True if bytes can be replaced before the commit: not for a device, a pipe or the standard output.
     bool can_replace() const { return nameless_ || begun_ != nullptr; }
 
-    /// Replaces bytes from `offset` on, as a count in a header; writes go on at the end. Precondition: can_replace().
+    /// Replaces bytes from `offset` on, as a count in a header; writes go on at the end. Requires: can_replace().
     void replace(std::uint64_t offset, std::string_view bytes);
 
     /// The first error so far. Bytes are gathered, so that an error may show only at a later call.
     Status status() const;
 
-    /// Hands all to the system; the target stays. Of files that change together close() all, commit() if all is well.
+    /// Hands all to the system; the target stays. For files that change together, close() all, then commit() them if
+    /// all is well.
     Status close();
 
     /// close() if that is still to do, then the rename.

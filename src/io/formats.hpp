@@ -56,7 +56,7 @@ auto read_guarded(const std::string& path, const Read& read) -> decltype(Result(
     return base::too_little_memory(path);
 }
 
-/// What f() throws as an Exception, as a Status.
+/// Calls f(); returns what it throws as an Exception as a Status.
 template <class F>
 Status status_of(const F& f) try {
     f();
@@ -101,7 +101,7 @@ std::unique_ptr<TableSink> open_npy_sink(const std::string& path, const TableFor
 /// Refuses rows whose spans and columns do not fit together and the format, and the feature degenerate.
 Status check_rows(const TableView& rows, const TableFormat& format, const std::string& path);
 
-/// Of a file of triangles that are not in the plane z = 0: what the mesh in the plane, of their x and y, has not.
+/// Data of a file of triangles off the plane z = 0 that the mesh in the plane, of their x and y, does not have.
 struct InSpace {
     std::vector<double> points;       ///< 3 coordinates a node; empty: it is a mesh in the plane
     std::vector<Mesh::Index> facets;  ///< as of Surface
@@ -126,12 +126,13 @@ enum class MeshFormat : std::uint8_t {
     by_meshio,  ///< converted: io/converted
 };
 
-/// Of a mesh that is to be read: by its first bytes, else the end of its name. Error: none, or one of another format.
+/// Returns the format of a mesh to read: by its first bytes, else the end of its name. Error: none is recognised, or
+/// one that is not read.
 Result<MeshFormat> mesh_format(const std::string& path);
 
 std::string meshio_format(const std::string& path);
 
-/// Of a mesh that is to be written: by the end of its name. Error: it is another one.
+/// Returns the format of a mesh to write: by the end of its name. Error: no such format.
 Result<MeshFormat> mesh_output_format(const std::string& path);
 
 /// Tells that so many cells of the mesh are taken by their corners, if there are such.
@@ -161,7 +162,7 @@ std::string_view first_word(std::string_view text, char comment);
 /// Compressed, or a .npy file, by its first bytes; else nullptr. No text begins so.
 const OtherFormat* packed_format(std::string_view head);
 
-/// That the file is not read, and what to do.
+/// Returns the error that the file is not read, with a remedy.
 Error other_format_error(const OtherFormat& format, const std::string& path);
 
 /// The command that makes one grid of the pieces of a file, in backquotes.

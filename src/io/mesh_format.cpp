@@ -39,7 +39,7 @@ Result<FileFormat> format_of_points(const std::string& path) {
     if (by_suffix && *by_suffix != FileFormat::vtu) return by_suffix;
     std::error_code ignored;
     const fs::file_type type = fs::status(path, ignored).type();
-    // What is opened here cannot be read again.
+    // A pipe, device or socket that is opened here cannot be read again.
     if (type == fs::file_type::fifo || type == fs::file_type::character || type == fs::file_type::socket)
         return FileFormat::csv;
     const std::size_t name = path.find_last_of('/') + 1;
@@ -98,7 +98,7 @@ Error missing(const std::string& path) {
     return error;
 }
 
-/// What a file is: a format that is read, or another one. Of a file that is there, and not TetGen's by a stem.
+/// Format of a file that is there, and is not TetGen's by a stem: one that is read, or another one.
 struct KnownFormat {
     std::optional<MeshFormat> format;
     const OtherFormat* other = nullptr;

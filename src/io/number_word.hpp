@@ -1,5 +1,5 @@
-/// A word of text as a number: all of it, or none. What parts words is the format's; nothing behind a number is passed
-/// over, and only decimal numbers are numbers of files: `0x10` is 0 to some programs and 16 to others.
+/// A word of text as a number: all of it, or none. The format decides what separates words; nothing behind a number is
+/// passed over, and only decimal numbers are numbers of files: `0x10` is 0 to some programs and 16 to others.
 #pragma once
 
 #include <cmath>

@@ -1,4 +1,4 @@
-/// What sources of points with carried columns have alike, and sinks of rows. Errors are thrown as Exceptions.
+/// Parts that sources of points with carried columns share, and sinks of rows. Errors are thrown as Exceptions.
 #pragma once
 
 #include "files/output_file.hpp"
@@ -56,7 +56,7 @@ PointColumns choose_columns(const TableColumns& all, int dimension, const PointO
 
 inline constexpr const char* or_nan_for_it = ", or take NaN for its values: options.nonfinite_points nan";
 
-/// Of a z that is not 0 beside a mesh in the plane. `row`: of which point, or empty.
+/// Refuses a z that is not 0 beside a mesh in the plane. `row`: of which point, or empty.
 [[noreturn]] inline void refuse_off_plane(const std::string& file, const std::string& row, const std::string& found) {
     refuse_file(file, "a point off the plane z = 0" + (row.empty() ? row : ": " + row), "z = 0, for the mesh is 2D",
                 found, "options.columns x,y leaves z out of account");
@@ -107,7 +107,7 @@ public:
     Status commit() override { return error_.what.empty() ? file_.commit() : Status(error_); }
 
 protected:
-    /// What the file cannot hold of rows that fit together.
+    /// Error: the file cannot hold something of these rows, which fit together.
     virtual Status check(const TableView&) const { return Done{}; }
     /// The bytes that a row of these takes at most.
     virtual std::size_t longest_row(const TableView& rows) const = 0;

@@ -41,7 +41,7 @@ RowSink::RowSink(const std::string& path, TableFormat format)
       file_(path == "-" ? base::OutputFile::standard_output() : base::OutputFile(path)) {}
 
 Status RowSink::write(const TableView& rows) {
-    // What one thread lays out at a time: large enough that handing it over costs nothing.
+    // A thread lays out one piece at a time: large enough that handing it over costs nothing.
     constexpr std::size_t piece_size = std::size_t{1} << 18, pieces_at_once = 16;
     const ExactEnvironment environment;
     if (!error_.what.empty()) return error_;

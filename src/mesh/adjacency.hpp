@@ -7,7 +7,7 @@ namespace barycert::mesh {
 
 /// The cell across the facet opposite to each corner, dimension + 1 a cell; -1 where there is none. Facets are the same
 /// if they have the same nodes; positions do not matter. Where more than two cells hold a facet, the two lowest are
-/// neighbours and the others have none. Precondition: the indices of the cells are in range. Time and memory O(cells +
+/// neighbours and the others have none. Requires: the indices of the cells are in range. Time and memory O(cells +
 /// nodes) where the number of cells at a node is bounded; on all threads of the calling arena.
 std::vector<Mesh::Index> compute_neighbours(const Mesh& mesh);
 
@@ -35,7 +35,8 @@ struct CellFacet {
 /// Time and memory O(cells + nodes) where cells at a node are bounded; on all threads, whose number does not show.
 class FacetTable {
 public:
-    /// Of the cells for which use[cell] is not 0; of all if it is empty. Precondition: their indices are in range.
+    /// Makes the table of the cells for which use[cell] is not 0; of all cells if `use` is empty. Requires: their
+    /// indices are in range.
     explicit FacetTable(const Mesh& mesh, std::span<const std::uint8_t> use = {});
 
     std::size_t node_count() const { return begin_.size() - 1; }
@@ -59,7 +60,7 @@ private:
     std::vector<CellFacet> facets_;
 };
 
-/// Makes the cells of the two lowest of equal facets neighbours. Precondition: one entry a corner of a cell.
+/// Makes the cells of the two lowest of equal facets neighbours. Requires: one entry a corner of a cell.
 void pair_facets(std::span<const CellFacet> equal, std::size_t corners, std::vector<Mesh::Index>& neighbours);
 
 }  // namespace barycert::mesh

@@ -14,7 +14,7 @@ void drop_repeated(Rings& rings);
 bool turn_alike(Rings& rings);
 
 /// Makes nodes at one place one, that of lowest number, and rings that pass a node more than once several; what has no
-/// area then goes. Precondition: finite coordinates.
+/// area then goes. Requires: finite coordinates.
 void collapse(const NumberedNodes& nodes, Rings& rings);
 
 }  // namespace barycert::mesh

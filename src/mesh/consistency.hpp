@@ -5,25 +5,27 @@
 
 namespace barycert::mesh {
 
-/// What the values of fields may be. Coordinates are always finite.
+/// Values that fields may have. Coordinates are always finite.
 enum class FieldValues : bool { finite, any };
 
 inline constexpr const char* not_listed = "the nodes and cells of a grid are not listed (ReadOptions::list_grids)";
 
-/// What is wrong with sizes, indices or numbers, in one clause, or nullptr: then it can be written, and read again.
+/// Returns, in one clause, what is wrong with sizes, indices or numbers. Returns nullptr if nothing is: the mesh can be
+/// written, and read again.
 const char* inconsistency(const Mesh& mesh, FieldValues values = FieldValues::finite);
 
-/// All of it but what belongs to faces: their markers and nodes at mid-edges. What check_mesh certifies passes.
+/// The same without what belongs to faces: their markers and nodes at mid-edges. A mesh that check_mesh certifies
+/// passes.
 const char* inconsistency_of_cells(const Mesh& mesh, FieldValues values);
 
-/// Of a grid whose cells are not listed.
+/// The same for a grid whose cells are not listed.
 const char* inconsistency_of_axes(const Mesh& mesh);
 
 /// Finite coordinates of planes, at least two.
 bool is_increasing(std::span<const double> coordinates);
 
 /// The part of that which check_mesh does not find otherwise: about what belongs to nodes and cells (markers, fields,
-/// nodes at mid-edges), and the index base. Precondition: whole nodes and cells of dimension 2 or 3.
+/// nodes at mid-edges), and the index base. Requires: whole nodes and cells of dimension 2 or 3.
 const char* inconsistency_of_extras(const Mesh& mesh, FieldValues values);
 
 /// The field is there and has `rows` rows; `of` as in "node".

@@ -179,7 +179,7 @@ std::string part_of_edge(double deviation) {
     return base::rounded_text(deviation, std::chars_format::general, 2) + " of the edge off its middle";
 }
 
-/// Of curved cells, without what became of them.
+/// Describes how many cells are curved and how far; not what became of them.
 std::string deviations(const CurvedCells& c) {
     const std::string which = counted_cells(c.cells) + (c.cells == 1 ? " is curved" : " are curved");
     if (std::isinf(c.max_deviation)) return which + ": mid-edge nodes lie off edges of length 0";

@@ -36,7 +36,7 @@ base::Vector3<double> from(const double* origin, const double* p) {
     return {p[0] - origin[0], p[1] - origin[1], p[2] - origin[2]};
 }
 
-/// Axes in the order in which projections along them are tried. What is not a number comes last.
+/// Axes in the order in which projections along them are tried. Lengths that are not a number come last.
 std::array<std::size_t, 3> axes_by_length(const base::Vector3<double>& normal) {
     base::Vector3<double> size{};
     for (std::size_t k = 0; k < 3; ++k) size[k] = normal[k] == normal[k] ? std::fabs(normal[k]) : -1;
@@ -148,7 +148,7 @@ private:
         return true;
     }
 
-    /// Precondition: the polygon is simple. Then there are two ears as long as there are four nodes and more: a polygon
+    /// Requires: the polygon is simple. Then there are two ears as long as there are four nodes and more: a polygon
     /// has triangulations without flat triangles (cut at a convex corner, to the node farthest inside its triangle, or
     /// along its base), and a triangle with one diagonal is an ear.
     std::vector<Triple> ears() const {

@@ -9,7 +9,7 @@
 /// of highest number goes first. Where the ring is no simple polygon in that projection, the next axis is asked. Signs
 /// are exact; the normal is computed in double, in the order above, and so the same for both cells.
 ///
-/// Of a face that is plane and convex without flat corners these are the triangles at its node of lowest number.
+/// A face that is plane and convex, without flat corners, gets the triangles at its node of lowest number.
 #pragma once
 
 #include <array>
@@ -36,7 +36,7 @@ struct NumberedNodes {
 using NodeTriangle = std::array<Mesh::Index, 3>;
 
 /// Appends the triangles of the ring, turned as it is. False, and nothing is appended, if it is no simple polygon in
-/// any projection along an axis. Preconditions: three nodes or more, all different; finite coordinates.
+/// any projection along an axis. Requires: three nodes or more, all different; finite coordinates.
 bool cut_face(const NumberedNodes& nodes, std::span<const Mesh::Index> ring, std::vector<NodeTriangle>& triangles);
 
 /// The rule cuts the ring from its node of lowest number. Same preconditions.

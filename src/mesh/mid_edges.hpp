@@ -10,7 +10,7 @@ namespace barycert::mesh {
 /// The corners of each edge, in the order `vtk`: 6 edges of a tetrahedron or 3 of a triangle.
 std::span<const std::array<std::size_t, 2>> edges_of(int dimension);
 
-/// Which edge (of edges_of) the k-th node of a cell in that order stands on. Precondition: the order exists in that
+/// Which edge (of edges_of) the k-th node of a cell in that order stands on. Requires: the order exists in that
 /// dimension; otherwise the span is empty.
 std::span<const std::size_t> edge_sequence(MidEdgeOrder order, int dimension);
 

@@ -32,7 +32,7 @@ struct Submesh {
     std::vector<Mesh::Index> nodes;  ///< likewise
 };
 
-/// Precondition: `cells` are cells of the mesh, ascending, and the mesh is consistent as far as these are concerned.
+/// Requires: `cells` are cells of the mesh, ascending, and the mesh is consistent as far as these are concerned.
 Submesh part_of(const Mesh& mesh, std::vector<Mesh::Index> cells);
 
 }  // namespace barycert::mesh

@@ -145,8 +145,8 @@ Parts turn(Parts parts) {
 /// Cells that are cut alike, by type, number of nodes and which of these are lowest.
 using KnownParts = std::unordered_map<std::uint64_t, Parts>;
 
-/// Cuts cells one after the other. What is cut alike, as most convex cells are, is cut once; exact signs tell of each
-/// cell whether it is.
+/// Cuts cells one after the other. Cells that are cut alike, as most convex cells are, are cut once; exact signs tell
+/// whether a cell is.
 class Cutter {
 public:
     Cutter(const Mesh& mesh, std::span<const Index> numbers, KnownParts& known)
@@ -245,8 +245,8 @@ private:
         return false;
     }
 
-    /// Of all parts, if each lies strictly on that side of its node, and the faces are cut from theirs of lowest
-    /// number; else zero.
+    /// The sign that all parts have, if each lies strictly on that side of its node, and the faces are cut from their
+    /// node of lowest number; else zero.
     Sign common_side(const Parts& parts, const Rings& rings, std::span<const Index> nodes) const {
         std::array<Index, 6> own{};
         for (const auto& ring : rings) {

@@ -20,7 +20,7 @@ namespace barycert::mesh {
 /// has one part, a degenerate one. `otherwise`, if given, gets how many are cut, but not at their lowest node and those
 /// of their faces. `numbers`: of each node, in place of its index, that by which nodes are ordered.
 /// Returns the first polyhedron whose faces do not close, if there is one: each edge must be one of two faces.
-/// Precondition: nodes in range, as many as the types have.
+/// Requires: nodes in range, as many as the types have.
 std::optional<std::size_t> pull(Mesh& mesh, std::span<const Mesh::Index> numbers = {},
                                 std::size_t* otherwise = nullptr);
 
@@ -31,7 +31,7 @@ std::optional<std::size_t> cut_into_simplices(Mesh& mesh, std::span<const Mesh::
 /// In Shapes::inside, the part that stands for a cell that cannot be cut: it is degenerate, so no point lies in it.
 inline constexpr std::uint16_t uncut_part = 0xffff;
 
-/// Those parts; ascending.
+/// Returns those parts; ascending.
 std::vector<Mesh::Index> uncut_parts(const Mesh& mesh);
 
 /// Which cells cannot be cut, in words; empty if all can.

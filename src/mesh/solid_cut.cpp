@@ -65,7 +65,7 @@ public:
     bool has_lines() const { return has_lines_; }
     const std::vector<NodeTriangle>& triangles() const { return triangles_; }
 
-    /// Of a part, what of its boundary lies inside (feature_of_whole).
+    /// Bits that tell which parts of a part's boundary lie inside the cell (feature_of_whole).
     std::uint16_t inside(const std::array<Index, 4>& c) const {
         unsigned bits = 0;
         for (std::size_t k = 0; k < 4; ++k) {

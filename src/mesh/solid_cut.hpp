@@ -20,7 +20,7 @@ struct Parts {
 };
 
 /// Parts by nodes; none if the cell cannot be cut. `rings`: its faces, turned alike, so that each edge is passed as
-/// often one way as the other. Preconditions: of each ring three nodes or more, all different; finite coordinates.
+/// often one way as the other. Requires: of each ring three nodes or more, all different; finite coordinates.
 Parts cut_solid(const NumberedNodes& nodes, const std::vector<std::vector<Mesh::Index>>& rings);
 
 }  // namespace barycert::mesh

@@ -12,10 +12,10 @@
 ///   mesh tells the digits, not the coordinate. Corners are then what their texts say, the shortest that are read as
 ///   they are.
 ///
-/// So half a unit of the node is excused, where the place has a digit more than the file. Of floats and decimal numbers
-/// half a unit of each corner is, too, times its share of the place, all together but the sum itself: they were rounded
-/// when they were written, after the place was computed. That matters where numbers have other units: of equal ones
-/// the sum is a whole number of halves. From 15 digits on so is the middle's own rounding to double.
+/// So half a unit of the node is excused, where the place has a digit more than the file. For floats and decimal
+/// numbers half a unit of each corner is excused, too, times its share of the place, all together but the sum itself:
+/// they were rounded when they were written, after the place was computed. That matters where numbers have other units:
+/// of equal ones the sum is a whole number of halves. From 15 digits on so is the middle's own rounding to double.
 #pragma once
 
 #include <array>
@@ -48,7 +48,7 @@ struct StraightPlace {
 
 /// `rounded` to double; `written` as a float or in decimal digits.
 enum class Straight : std::uint8_t { exactly, rounded, written, no };
-/// Precondition: all numbers are finite.
+/// Requires: all numbers are finite.
 Straight straightness(double coordinate, const StraightPlace& place, const Written& written);
 
 }  // namespace barycert::mesh

@@ -26,7 +26,7 @@ using Places = std::bitset<most_nodes>;
 /// nodes mostly take a tenth of it and less (tests/mesh/solid_cut_test.cpp).
 constexpr std::size_t budget = 500000;
 
-/// Of an oriented triangle from its lowest place on.
+/// An oriented triangle, from its lowest place on.
 Triangle from_first(Triangle t) {
     std::rotate(t.begin(), std::ranges::min_element(t), t.end());
     return t;
@@ -180,7 +180,7 @@ private:
         return at->second;
     }
 
-    /// Those of a triangle of the front that the chosen tetrahedra leave, best first.
+    /// Apexes for a triangle of the front that the chosen tetrahedra leave free, best first.
     std::vector<Place> choices(const Triangle& t, const std::vector<Triangle>& front) {
         struct Choice {
             int closed;
@@ -244,7 +244,7 @@ private:
     std::vector<Tetrahedron> chosen_;
 };
 
-/// Of the volume that the triangles enclose: the sum over cones from the first point.
+/// The sign of the volume that the triangles enclose: the sum over cones from the first point.
 int sign_of_volume(const std::vector<const double*>& points, const std::vector<Triangle>& triangles) {
     core::WholePoints whole{};
     for (const double* const p : points) whole.add(p);

@@ -65,7 +65,7 @@ public:
         }
     }
 
-    /// Those with a triangle of their nodes, along either diagonal, that is a facet of a part of another cell.
+    /// Sides with a triangle of their nodes, along either diagonal, that is a facet of a part of another cell.
     std::vector<SplitSide> split() {
         const std::vector<Index> wholes = whole_of_parts(mesh_);
         base::parallel_for_each(mesh_.cell_count(), 4096, [&](std::size_t cell) {

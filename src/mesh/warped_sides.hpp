@@ -8,8 +8,8 @@
 
 namespace barycert::mesh {
 
-/// Of each cell, whole as users know it, a bit for each of its sides of four nodes, in the order of rings_of(), that is
-/// warped: not flat. `has_map`: 0 where the cell is taken as its parts, or its map is no product.
+/// Returns, for each cell, whole as users know it, a bit for each of its sides of four nodes, in the order of
+/// rings_of(), that is warped: not flat. `has_map`: 0 where the cell is taken as its parts, or its map is no product.
 std::vector<std::uint8_t> warped_sides(const Mesh& mesh, std::span<const std::uint8_t> has_map);
 
 /// A warped side, and the lowest cell beyond it that has another surface there; both are wholes.

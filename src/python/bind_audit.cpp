@@ -28,8 +28,9 @@ struct Callable {
 Callable* callable_kernel = nullptr;
 std::mutex callable_kernel_in_use;
 
-/// A call of the callable, on this thread. What it forks has an end of a pipe, until it ends or runs another program.
-/// A process that comes back from the callable without having called it would go on with the audit and the script.
+/// A call of the callable, on this thread. A process that it forks has an end of a pipe, until it ends or runs another
+/// program. A process that comes back from the callable without having called it would go on with the audit and the
+/// script.
 struct Call {
     Call() {
         static const int told_of_forks = ::pthread_atfork(
@@ -123,7 +124,7 @@ Kernel kernel_of(Simplex simplex, const std::string& name, bool declares, std::o
     return kernel;
 }
 
-/// What was chosen by names, or an Error that says what lists them in Python.
+/// Returns what was chosen by names, or throws an Error that says what lists the names in Python.
 template <class T>
 T named(Result<T> chosen, const char* lists) {
     if (chosen) return std::move(*chosen);

@@ -42,7 +42,7 @@ MeshObject make_mesh(const Given<double>& points, const Given<Mesh::Index>& cell
     return MeshObject(std::move(mesh));
 }
 
-/// Of each cell or node, if the mesh has some.
+/// The numbers of each cell or node, if the mesh has some; else None.
 template <class T>
 py::object if_any(const MeshObject& mesh, const std::vector<T>& numbers, std::size_t columns = 0) {
     if (numbers.empty()) return py::none();
@@ -119,8 +119,7 @@ auto arrays_of(auto& shapes) {
     return std::tie(types, ends, nodes, face_ends, ring_ends, rings, parts, inside);
 }
 
-/// What points, cells and fields do not tell, to be pickled: how cells are taken, and the shapes that they are parts
-/// of.
+/// State to pickle besides points, cells and fields: how cells are taken, and the shapes that they are parts of.
 py::tuple taken(const MeshObject& object) {
     const BuildOptions& how = object.geometry()->options;
     const auto with_arrays = [&]<class... T>(const std::vector<T>&... of) {

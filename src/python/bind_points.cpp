@@ -136,7 +136,7 @@ py::array sample(const BoundSampler& bound, const Given<double>& points, const S
     return out;
 }
 
-/// Of that many axes; entries of others do not matter.
+/// Makes a grid with that many axes; entries of others do not matter.
 Grid grid_of(int axes, const std::array<std::int64_t, 3>& counts, const std::array<double, 3>& low,
              const std::array<double, 3>& high) {
     return grid_over(axes, counts, low, high).value();

@@ -1,5 +1,5 @@
-/// What the parts of barycert._core share. What Python users see is made of them in barycert/*.py, which checks and
-/// converts arguments; these take arrays as they are.
+/// Parts that the sources of barycert._core share. barycert/*.py makes from them what Python users see: it checks and
+/// converts arguments; these functions take arrays as they are.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -88,7 +88,8 @@ inline constexpr Words<Rounding> words<Rounding>{"rounding of values (rounding=)
 template <class T>
 using Array = py::array_t<T, py::array::c_style>;
 
-/// What the Python part hands over: contiguous and of this type; any other array is a TypeError, never a hidden copy.
+/// An array that the Python part hands over: contiguous and of this type; any other array is a TypeError, never a
+/// hidden copy.
 template <class T>
 struct Given : Array<T> {
     using Array<T>::Array;
@@ -105,7 +106,7 @@ struct Given : Array<T> {
 
 using Shape = std::vector<std::size_t>;
 
-/// What lives as long as an array that looks at it.
+/// Keeps a thing alive as long as an array that looks at it.
 template <class T>
 py::capsule keeper(T&& thing) {
     auto keep = std::make_unique<T>(std::move(thing));
@@ -114,7 +115,7 @@ py::capsule keeper(T&& thing) {
     return owner;
 }
 
-/// Of rows of so many columns; 0: one axis.
+/// The shape of rows of so many columns; 0: one axis.
 inline Shape shape_of(std::size_t size, std::size_t columns) {
     return columns == 0 ? Shape{size} : Shape{size / columns, columns};
 }
@@ -165,7 +166,7 @@ inline void tell(const Progress& progress, std::string_view stage, std::size_t d
     if (progress) (*progress)(py::str(stage.data(), stage.size()), done, total);
 }
 
-/// What work() returns.
+/// Returns work(), called without the interpreter's lock.
 template <class Work>
 auto unlocked(const Work& work) {
     const py::gil_scoped_release released;
@@ -271,9 +272,9 @@ public:
         return all;
     }
 
-    /// Of the fields with these names, or all; the last one is kept.
+    /// Returns the sampler of the fields with these names, or of all; keeps the last one.
     std::shared_ptr<BoundSampler> sampler(const std::vector<std::string>& names, const Progress& progress);
-    /// Of values at the nodes that are no field of the mesh; or of none.
+    /// Returns the sampler of values at the nodes that are no field of the mesh; or of none.
     std::shared_ptr<BoundSampler> sampler_of(const std::optional<Given<double>>& values,
                                              const Progress& progress) const;
 

@@ -21,13 +21,13 @@ namespace {
 
 using pieces::ArrayKind;
 
-// Of a tuple, where it stands in one piece; 0 elsewhere.
+// Bytes of a tuple, where it stands in one piece; 0 elsewhere.
 std::size_t width(vtkAbstractArray& array) {
     if (array.IsNumeric() == 0 || array.GetDataType() == VTK_BIT) return 0;
     return static_cast<std::size_t>(array.GetDataTypeSize()) * static_cast<std::size_t>(array.GetNumberOfComponents());
 }
 
-// Of all arrays but the one of that name, and that of ghosts.
+// Kinds of all arrays but the one of that name, and that of ghosts.
 std::vector<ArrayKind> kinds_of(vtkDataSetAttributes& attributes, const char* but) {
     std::vector<ArrayKind> kinds;
     for (int i = 0; i < attributes.GetNumberOfArrays(); ++i) {
@@ -76,7 +76,7 @@ vtkSmartPointer<vtkAbstractArray> make(const ArrayKind& kind, vtkIdType tuples, 
     return array;
 }
 
-// Of arrays whose values stand one after the other, of bits (a byte each), and of texts (their size goes first).
+// Tuples of arrays whose values stand one after the other, of bits (a byte each), and of texts (their size goes first).
 struct ArrayTuples : pieces::Tuples {
     void put(std::size_t tuple, std::vector<char>& bytes) const override {
         const auto append = [&](const char* from, std::size_t count) { bytes.insert(bytes.end(), from, from + count); };

@@ -48,7 +48,7 @@ struct ProbeSettings {
     pieces::Shape cells = {};  ///< interpolation and curved
 };
 
-/// What a rank learns besides.
+/// Further results on a rank.
 struct ProbeReport {
     vtkSmartPointer<vtkCharArray> mask;
     std::vector<std::string> inexact;  ///< arrays of integers that become doubles first

@@ -177,7 +177,7 @@ void ExactIndex::weights_of_nodes(Mesh::Index cell, const double* x, bool inside
         const TableView row{.points = {point.data(), static_cast<std::size_t>(mesh.dimension)}, .cells = {&own, 1}};
         if (Result<NodeWeights> all = node_weights(*locator, row, {.kind = Outside::nearest})) its = std::move(*all);
     }
-    // Of a map that cannot be inverted there, none.
+    // Sets NaN for a map that cannot be inverted there.
     const double others = its.nodes.empty() ? std::numeric_limits<double>::quiet_NaN() : 0.0;
     std::fill_n(out, nodes.GetNumberOfIds(), others);
     for (std::size_t i = 0; i < its.nodes.size(); ++i)

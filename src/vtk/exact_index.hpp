@@ -1,4 +1,4 @@
-/// What the exact locator knows of a data set of VTK, made once for all that ask.
+/// Index of a data set of VTK for the exact locator, made once for all that ask.
 #pragma once
 
 #include <vtkType.h>
@@ -50,8 +50,8 @@ struct ExactIndex : pieces::IndexedPiece {
     /// too.
     std::array<double, 12> vertices(Mesh::Index cell, vtkCell* fetched = nullptr) const;
     std::array<double, 4> weights(Mesh::Index cell, const double* point, vtkCell* fetched = nullptr) const;
-    /// Of those nodes of VTK's cell, in which `x` in space lies, or (`inside` is false) the point nearest to it. Nodes
-    /// that have no part in the value there have 0.
+    /// Sets the weights of those nodes of VTK's cell in which `x` in space lies, or (`inside` is false) the point
+    /// nearest to it. Nodes that have no part in the value there get 0.
     void weights_of_nodes(Mesh::Index cell, const double* x, bool inside, vtkIdList& nodes, double* out) const;
 };
 
@@ -60,9 +60,9 @@ inline pieces::Shape shape_of(int interpolation, int curved) {
     return {.interpolation = static_cast<CellInterpolation>(interpolation), .curved = static_cast<Curved>(curved)};
 }
 
-/// Of one data set at one time of modification it is made once; data sets of the same cells share it as long as one of
-/// them lives. Any thread may call this, one at a time for a vtkPolyData, whose cells it may build. Never null.
-/// Cells are numbered by the GlobalIds of cell data, which are without fault; nodes by those of point data.
+/// Returns the index of a data set, made once for a time of modification; data sets of the same cells share it as long
+/// as one of them lives. Any thread may call this, one at a time for a vtkPolyData, whose cells it may build. Never
+/// null. Cells are numbered by the GlobalIds of cell data, which are without fault; nodes by those of point data.
 std::shared_ptr<const ExactIndex> exact_index(vtkDataSet& data, const pieces::Shape& shape = {});
 
 /// The next one is made anew.
@@ -72,12 +72,12 @@ void forget_index(const vtkDataSet& data);
 
 /// Why these, of so many, cannot be used; empty if they can. `of`: "cell" or "point".
 std::string fault_of_global_ids(vtkDataSetAttributes& attributes, vtkIdType count, const std::string& of);
-/// Of each cell of the mesh.
+/// The global id of each cell of the mesh.
 std::vector<std::int64_t> global_ids(vtkDataSet& data, const ExactIndex& index);
 
 // From VTK's cells to a mesh of simplices.
 
-/// What there is, or why it is no mesh: a clause.
+/// Sets the facts about the cells. Returns, as a clause, why they are no mesh; empty if they are one.
 std::string look_at_cells(vtkDataSet& data, pieces::PieceFacts& facts);
 
 /// Sets mesh, normal, plane, axes and notes of an index of that shape, or returns why the data set has no mesh. Of

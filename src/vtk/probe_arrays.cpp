@@ -265,7 +265,7 @@ void ProbeArrays::write(const TableView& rows, const vtkIdType* ids, vtkIdType f
         rows_.push_back(row);
     }
     for (const Sampled& array : sampled_) {
-        // What FieldList makes has its values one after the other, but for bits.
+        // Arrays that FieldList makes have their values one after the other, except arrays of bits.
         if (auto* const bits = vtkBitArray::SafeDownCast(array.to)) {
             write_values<char>(array, rows, stride, place, [&](vtkIdType at, char bit) { bits->SetValue(at, bit); });
             continue;
@@ -312,7 +312,7 @@ void ProbeArrays::write_values(const Sampled& array, const TableView& rows, std:
     }
 }
 
-// What depends on the weights of the vertices alone.
+// Writes what depends on the weights of the vertices alone.
 void ProbeArrays::write_nodes(const PlaceOfRow& place) const {
     if (nearest_.empty() && mixed_.empty()) return;
     vtkNew<vtkIdList> nodes;

@@ -26,15 +26,15 @@ void prepare(vtkAbstractArray& array, vtkIdType tuples, double outside);
 
 class ProbeArrays {
 public:
-    /// Adds to the point data of `output` the arrays that vtkProbeFilter would, the mask last, without tuples. What is
-    /// sampled of `source` is copied. `categorical`: the scalars are those of the vertex of greatest weight.
+    /// Adds to the point data of `output` the arrays that vtkProbeFilter would, the mask last, without tuples. Copies
+    /// the arrays of `source` that are sampled. `categorical`: the scalars are those of the vertex of greatest weight.
     ProbeArrays(const ExactIndex& index, vtkDataSet& source, vtkDataSet& output, bool categorical,
                 const char* mask_name);
 
     /// Gives all of them that many tuples, all zero; real numbers are `outside`.
     void allocate(vtkIdType points, double outside);
 
-    /// What a sampler is to sample, in the order of its columns. Refers to this object.
+    /// The fields to sample, in the order of the columns. They refer to this object.
     std::vector<FieldChoice> choices() const {
         std::vector<FieldChoice> all;
         for (const Field& field : fields_) all.push_back({.field = &field});

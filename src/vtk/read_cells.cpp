@@ -33,7 +33,7 @@ public:
 
     bool is_ghost(vtkIdType cell) const { return ghosts_ != nullptr && (ghosts_->GetValue(cell) & ghost_mask) != 0; }
 
-    /// Those of that dimension that are no ghosts.
+    /// Returns the cells of that dimension that are no ghosts.
     std::vector<Mesh::Index> kept(int dimension) const {
         std::vector<Mesh::Index> all;
         for (vtkIdType i = 0; i < data_.GetNumberOfCells(); ++i)
@@ -215,7 +215,7 @@ std::string read_cells(vtkDataSet& data, ExactIndex& index) {
     mesh.points = points_of(data);
     Mesh::Shapes& shapes = mesh.shapes;
     const std::size_t points = mesh.points.size() / 3;
-    // Of tetrahedra alone who indexes or checks them tells what is no node.
+    // Tetrahedra alone need no look at their nodes here: who indexes or checks them tells what is no node.
     const bool any_node = !shape.mixed && shape.dimension == 3;
     std::vector<Mesh::Index> nodes;
     for (const Mesh::Index cell : kept) {

@@ -69,7 +69,7 @@ std::string places_of(const Defect& defect, const CheckReport& report) {
     return all;
 }
 
-// Of two parts of a cell.
+// Joins a measure of two parts of a cell.
 double joined(std::string_view measure, double a, double b) {
     if (measure == "orientation") return a == b ? a : 0;
     if (measure == "volume") return a + b;

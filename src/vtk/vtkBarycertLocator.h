@@ -50,9 +50,10 @@ public:
     vtkGetMacro(Tolerant, bool);
     vtkBooleanMacro(Tolerant, bool);
 
-    /// Of hexahedra, voxels, wedges, pyramids, quadrilaterals and pixels. PULLING (the default): their functions are
-    /// linear on the simplices that they are cut into, and weights are 0 at the nodes of all but the one that holds the
-    /// point. MULTILINEAR: they have their own isoparametric functions, and the sides that these give them.
+    /// Interpolation in hexahedra, voxels, wedges, pyramids, quadrilaterals and pixels. PULLING (the default): their
+    /// functions are linear on the simplices that they are cut into, and weights are 0 at the nodes of all but the one
+    /// that holds the point. MULTILINEAR: they have their own isoparametric functions, and the sides that these give
+    /// them.
     enum { PULLING = 0, MULTILINEAR = 1 };
     vtkSetClampMacro(Interpolation, int, PULLING, MULTILINEAR);
     vtkGetMacro(Interpolation, int);

@@ -26,7 +26,7 @@ public:
     vtkSetStringMacro(FileName);
     vtkGetStringMacro(FileName);
 
-    /// Whether the name ends as TetGen's files do. What is in the file is told when it is read.
+    /// Whether the name ends as TetGen's files do. The contents are checked when the file is read.
     int CanReadFile(const char* name);
 
 protected:

@@ -50,7 +50,7 @@ private:
         bool shown;  // by another observer
     };
 
-    // Those before it, too, each once.
+    // Watches the algorithm and all before it, each once.
     void add(vtkAlgorithm& algorithm) {
         const auto same = [&](const Watched& one) { return one.algorithm == &algorithm; };
         if (std::any_of(watched_.begin(), watched_.end(), same)) return;
@@ -82,8 +82,9 @@ public:
     static FailingUpstream* New();
     vtkTypeMacro(FailingUpstream, vtkStreamingDemandDrivenPipeline)
 
-    // What failed before an input, and has not been modified since then: its output is not to be used, although VTK
-    // takes it for the result from then on. Empty if nothing failed. Readers tell it by GetErrorCode() alone.
+    // The failure of something before an input that has not been modified since then: its output is not to be used,
+    // although VTK takes it for the result from then on. Empty if nothing failed. Readers tell it by GetErrorCode()
+    // alone.
     std::string failure() const { return failures_.empty() ? std::string() : failures_.begin()->second.what; }
 
 protected:

@@ -42,8 +42,8 @@ public:
     void SetController(vtkMultiProcessController* controller);
     vtkGetObjectMacro(Controller, vtkMultiProcessController);
 
-    /// Of the last execution, on this process: points that were sent to others and that others sent, one for each that
-    /// was asked; bytes of messages to others, and of what all processes told each other.
+    /// Figures of the last execution, on this process: points that were sent to others and that others sent, one for
+    /// each that was asked; bytes of messages to others, and of what all processes told each other.
     vtkGetMacro(PointsSent, vtkIdType);
     vtkGetMacro(PointsReceived, vtkIdType);
     vtkGetMacro(BytesSent, vtkIdType);

@@ -151,7 +151,7 @@ int leaves_another_rounding_mode(const double* v, const double* p, double* w) {
     return status;
 }
 
-// What a kernel does not set is not an answer, and least of all the answer of the kernel before it.
+// Weights that a kernel does not set are no answer, and least of all the answer of the kernel before it.
 TEST(BrokenKernels, UnsetWeightsAreNotFinite) {
     Kernel lazy = kernel(sets_nothing);
     lazy.name = "tetrahedron.lazy";

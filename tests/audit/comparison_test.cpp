@@ -87,7 +87,7 @@ TEST(Comparison, NoAnswerIsAnErrorBeyondAnyButOnWhatIsDegenerate) {
 
 int said = 0;
 
-// What is none of the four regions is taken for the least that a kernel can say.
+// A region that is none of the four is taken for the least that a kernel can say.
 TEST(Comparison, RegionsThatAKernelSays) {
     Kernel k = kernel_named("triangle.signed-area");
     k.rule = RegionRule::own;

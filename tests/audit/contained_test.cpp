@@ -121,7 +121,7 @@ TEST(Contained, EveryAccidentIsToldWithItsCase) {
             const Replay replay = replay_witness(w, {k.kernel});
             EXPECT_EQ(replay.not_reproduced, "");
             EXPECT_EQ(replay.answers.at(0).answered, a.answers);
-            // What it answers in those cases is right, or not there at all.
+            // The kernel's answers in those cases are right, or not there at all.
             EXPECT_EQ(k.total.confusion[0][0], a.answers ? some : some - expected);
         }
         EXPECT_EQ(orphanage.left_behind(), 0U);
@@ -139,7 +139,7 @@ TEST(Contained, AProcessThatAKernelForksHasNoPartInItsAnswers) {
         forked = 0;
         expect_same_figures(s, statistics_of(quiet, "mesh.inside", some, own_meshes()));
     }
-    // What goes on after the kernel's crash does not hide it.
+    // A process that goes on after the kernel's crash does not hide the crash.
     const std::uint64_t expected = unruly_cases("mesh.inside", 200);
     const KernelStatistics s = statistics_of(contained("orphan"), "mesh.inside", 200, own_meshes());
     EXPECT_EQ(count_of(s, Finding::crashed), expected);

@@ -142,7 +142,7 @@ TEST(Inverses, JudgeAgreesWithNewtonIn100Digits) {
                 if (exact.region == Region::outside) continue;
                 ASSERT_EQ(exact.value, found.value.convert_to<double>()) << int(type) << ' ' << family.name << ' ' << i;
                 for (std::size_t k = type == 14 ? 2 : 0; k < c.point.size() && found.x[0] != -1; ++k) {
-                    // What is 0 or 1 exactly is so up to 1e-60.
+                    // Coordinates that are exactly 0 or 1 are so up to 1e-60.
                     const Digits off = abs(found.x[k] - Digits(exact.x[k])), size = abs(found.x[k]);
                     ASSERT_LE(off, size * Digits(0x1p-53) + Digits("1e-60")) << int(type) << ' ' << family.name << i;
                 }

@@ -104,7 +104,7 @@ TEST(Surfaces, ThreadsChangeNothing) {
     EXPECT_NE(surfaces_json(one), surfaces_json(audited(300, 4, 1)));
 }
 
-// What a report names as a case can be made again, and shows the fault.
+// A case that a report names can be made again, and shows the fault.
 TEST(Surfaces, WrongCasesAreMadeAgain) {
     const SurfaceAudit audit = audited(300, 1);
     int shown = 0;

@@ -1,4 +1,4 @@
-/// What VTK offers to judge a mesh: vtkCellValidator and vtkMeshQuality, both in floating point with tolerances.
+/// VTK's judges of a mesh: vtkCellValidator and vtkMeshQuality, both in floating point with tolerances.
 #pragma once
 
 #include <memory>

@@ -356,7 +356,7 @@ void lean_values(const CubeMesh& mesh, const Queries& queries, double* out) {
 
 // ---- Verification --------------------------------------------------------------------------------------------------
 
-/// What `ask` writes on each target, required to be the same everywhere, counts of tiers included.
+/// Returns what `ask` writes; requires that it is the same on every target, counts of tiers included.
 template <class T, class Ask>
 std::vector<T> same_on_all_targets(const TargetTable& table, std::size_t count, TierCounts& tiers, Ask ask) {
     std::vector<T> first;

@@ -10,7 +10,7 @@
 namespace barycert::peers {
 
 /// Sign bits of the four determinants and of their sum, in the code of WeightSigns; a determinant that is zero counts
-/// as it comes. Precondition: cases.count is a multiple of the lanes.
+/// as it comes. Requires: cases.count is a multiple of the lanes.
 void plain_signs(const core::CaseBlock& cases, WeightSigns* out);
 
 /// sum n_i f_i / sum n_i of the four determinants n_i; values[i][j] is that at vertex i of case j. Same precondition.

@@ -1,5 +1,5 @@
-// What single calls of the exact core take where integers must answer: up to two limbs a number, and at the full spread
-// of exponents, where they are widest. Answers are verified elsewhere (tests/core/laws); here only that there is one.
+// Times of single calls of the exact core where integers must answer: up to two limbs a number, and at the full spread
+// of exponents, where they are widest. Answers are verified elsewhere (tests/laws); here only that there is one.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>

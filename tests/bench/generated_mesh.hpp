@@ -14,10 +14,10 @@ namespace barycert::bench {
 /// where e_k are unit vectors in some order and |d_k| <= 0.3 a coordinate: the matrix is diagonally dominant, 1 - 0.3 >
 /// 0.3 + 0.3, while the nodes move, so no cell folds over; the boundary stays where it is. (Rounding moves nodes by
 /// some 2^-53, which is nothing beside the 0.1 / n to spare.) Nobody needs to believe this: the meshes are checked.
-/// Precondition: 1 <= n <= 700, so that indices fit.
+/// Requires: 1 <= n <= 700, so that indices fit.
 Mesh jittered_cube(int n, std::uint64_t seed);
 
-/// What n^3 lattice cubes are cut into. All fit together: a face of four nodes is one on both of its sides.
+/// Cells into which n^3 lattice cubes are cut. All fit together: a face of four nodes is one on both of its sides.
 enum class CubeCells : std::uint8_t {
     hexahedra,
     wedges,    ///< two a cube, their triangles below and above

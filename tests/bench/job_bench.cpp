@@ -265,7 +265,7 @@ Spent run_settled(const Contender& c) {
     return run_process(c.words);
 }
 
-/// What takes less than a second runs twice, the first time only to warm up: a virtual machine may have given memory
+/// Runs twice what takes less than a second, the first time only to warm up: a virtual machine may have given memory
 /// back to its host meanwhile, and getting it again takes up to 0.2 s.
 Spent run_warm(const Contender& c) {
     constexpr double second = 1;

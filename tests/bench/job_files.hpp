@@ -36,8 +36,8 @@ Mesh with_bad_cells(Mesh mesh);
 void write_doubles(const std::string& path, const std::vector<double>& numbers);
 std::vector<double> read_doubles(const std::string& path);
 
-/// Of rows that barycert wrote, .npy or .csv, or VTK to .csv: the coordinates and the field, NaN where the point is
-/// outside. A CSV is looked through for columns x, y, z, attribute0 and, if it is VTK's, vtkValidPointMask.
+/// Reads rows that barycert wrote, .npy or .csv, or VTK to .csv: the coordinates and the field, NaN where the point is
+/// outside. In a CSV file it looks for the columns x, y, z, attribute0 and, if the file is VTK's, vtkValidPointMask.
 struct ReadRows {
     std::vector<double> points, values;
 };

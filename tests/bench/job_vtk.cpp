@@ -1,4 +1,5 @@
-// What somebody writes with VTK for the jobs of bench_job: VTK's own readers, probe and writers, files to files.
+// A program as somebody writes it with VTK for the jobs of bench_job: VTK's own readers, probe and writers, files to
+// files.
 //
 //     job_vtk THREADS LOCATOR points MESH.vtu POINTS.vtp|.csv OUT.vtp|.csv    LOCATOR: tree, static
 //     job_vtk THREADS LOCATOR image MESH.vtu SIDE OUT.vti

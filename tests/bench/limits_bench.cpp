@@ -1,6 +1,6 @@
-// What this machine can do, by small loops: memory in sequence, cache lines far apart, gathers, new pages, files, a
-// radix sort. doc/speed.md holds the rows of the other benches against these limits. Medians of five; each loop's
-// result is verified. Times are by the clock, as threads share the memory: let the machine be idle.
+// Limits of this machine, by small loops: memory in sequence, cache lines far apart, gathers, new pages, files, a radix
+// sort. doc/speed.md holds the rows of the other benches against these limits. Medians of five; each loop's result is
+// verified. Times are by the clock, as threads share the memory: let the machine be idle.
 //
 // bench_limits [--quick]
 #include <fcntl.h>

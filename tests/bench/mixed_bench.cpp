@@ -116,7 +116,7 @@ Field field_of(const Mesh& mesh, const char* name, double (*at)(const double*)) 
     return field;
 }
 
-/// Of a file of image data, which holds nothing but the geometry.
+/// Reads a file of image data, which holds nothing but the geometry.
 Mesh image_mesh(const Grid& grid, bool listed) {
     const std::string path = (std::filesystem::temp_directory_path() / "barycert-bench-image.vti").string();
     std::ofstream file(path);

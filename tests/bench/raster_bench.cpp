@@ -146,7 +146,7 @@ double largest_error(const std::vector<TexturedVertex>& corners, bool perspectiv
 }
 
 #ifdef BARYCERT_WITH_OSMESA
-/// What Mesa draws, held against the exact pictures.
+/// Compares what Mesa draws with the exact pictures.
 void judge_mesa(const bench::MesaAnswer& mesa, const std::vector<TexturedVertex>& corners, bool perspective,
                 const char* what) {
     Findings f;

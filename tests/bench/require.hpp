@@ -1,4 +1,4 @@
-/// What must hold before anything is timed.
+/// Requirements that must hold before anything is timed.
 #pragma once
 
 #include <cstdio>

@@ -1,4 +1,4 @@
-// What it takes before the first point is asked: time and memory.
+// Time and memory before the first point is asked.
 
 #include <cstddef>
 #include <optional>

@@ -8,7 +8,8 @@
 
 namespace barycert::bench {
 
-/// Of a run: by the clock, and the processor's own of all threads, which does not count what others on the machine do.
+/// Times of a run: by the clock, and the processor's own of all threads, which does not count what others on the
+/// machine do.
 struct Seconds {
     double wall = 0, cpu = 0;
 };
@@ -22,7 +23,7 @@ public:
     /// `prepare` runs before each run and is not timed.
     void add(const std::string& name, std::function<void()> work, std::function<void()> prepare = {});
 
-    /// All of them in turn, so many times. What takes less than half a second runs twice in each turn, the first time
+    /// All of them in turn, so many times. A run of less than half a second runs twice in each turn, the first time
     /// only to warm up. Progress goes to the standard error.
     void run(int repetitions);
 

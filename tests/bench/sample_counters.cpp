@@ -45,7 +45,7 @@ struct Counters {
     double instructions = 0, first = 0, lines = 0, branches = 0, missed = 0;
 };
 
-/// What cachegrind wrote: the names of events, and their sums.
+/// Reads what cachegrind wrote: the names of events, and their sums.
 Counters read_counters(const std::string& path) {
     std::ifstream file(path);
     std::string line;

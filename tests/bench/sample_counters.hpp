@@ -1,4 +1,4 @@
-/// What a query costs in counts that do not depend on the machine's memory: cache lines, instructions, branches.
+/// Cost of a query in counts that do not depend on the machine's memory: cache lines, instructions, branches.
 #pragma once
 
 #include <span>

@@ -40,7 +40,7 @@ public:
     /// From now on the image has these values, which must stay; and vtkProbeFilter at the points in it.
     virtual void set_image(std::vector<double>& values) = 0;
     virtual void probe_in_image() = 0;
-    /// What the last probe found, NaN where its mask says that there is nothing; empty if the file is empty.
+    /// The values of the last probe, NaN where its mask says that there is nothing; empty if the file is empty.
     virtual std::vector<double> probed() const = 0;
 };
 

@@ -13,7 +13,7 @@ namespace {
 
 using Which = VtkPeer::Which;
 
-/// What runs write, kept so that no run pays for new pages.
+/// Outputs of runs, kept so that no run pays for new pages.
 struct Written {
     Table rows;
     std::vector<Mesh::Index> cells;

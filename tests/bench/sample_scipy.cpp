@@ -71,7 +71,7 @@ bool read(const std::string& path, std::vector<double>& numbers) {
     return file.read(reinterpret_cast<char*>(numbers.data()), size) && file.peek() == std::ifstream::traits_type::eof();
 }
 
-/// What a command of the shell prints, and whether it ended well.
+/// Runs a command of the shell: takes what it prints, and returns whether it ended well.
 bool run(const std::string& command, std::string& output) {
     std::FILE* const pipe = ::popen(command.c_str(), "r");
     if (pipe == nullptr) return false;

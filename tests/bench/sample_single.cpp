@@ -35,12 +35,12 @@ Path path_of(const Round& round, const std::string& name, std::size_t count, dou
     return path;
 }
 
-/// What calls find must be what one call for all finds.
+/// Single calls must find what one call for all finds.
 void verify(const Path& path, const std::vector<Mesh::Index>& cells) {
     require(cells == path.owners, path.name + ": a single call found another cell");
 }
 
-/// Of point i, the point whose cell is its far hint.
+/// The point whose cell is the far hint of point i.
 std::size_t far_from(std::size_t i, std::size_t count) {
     return (i * 7919 + count / 2) % count;
 }

@@ -1,4 +1,4 @@
-/// What bench_sample runs on: a certified mesh with fields, points, a grid, and what barycert makes of it.
+/// A subject of bench_sample: a certified mesh with fields, points, a grid, and what barycert makes of it.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-/// What bench_sample tells: one table in Markdown, and each demand as met or not.
+/// The output of bench_sample: one table in Markdown, and each demand as met or not.
 #pragma once
 
 #include <string>

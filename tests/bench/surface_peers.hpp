@@ -1,4 +1,4 @@
-/// What VTK offers to cut a mesh of tetrahedra.
+/// VTK's filters that cut a mesh of tetrahedra.
 #pragma once
 
 #include <array>
@@ -31,7 +31,7 @@ public:
     void cutter(const std::array<double, 3>& normal, double offset);
     void plane_cutter(const std::array<double, 3>& normal, double offset);
 
-    /// What the last cut gave.
+    /// The result of the last cut.
     PeerSurface surface() const;
 
 private:

@@ -1,4 +1,4 @@
-/// What others offer for points and a surface of triangles. Each answers all points, on one thread.
+/// Other libraries' answers for points and a surface of triangles. Each answers all points, on one thread.
 #pragma once
 
 #include <cstdint>

@@ -285,7 +285,7 @@ TEST_F(Continuation, MovedAndScaledCells) {
     }
 }
 
-// What lies in the Taylor coefficients at a place gives the shape functions' sums back, exactly.
+// The Taylor coefficients at a place give the shape functions' sums back, exactly.
 TEST_F(Continuation, TaylorCoefficientsOfWholeNumbers) {
     std::vector<const Reference*> all;
     for (const int type : {9, 12, 13, 14}) all.push_back(linear_reference(static_cast<std::uint8_t>(type)));

@@ -61,7 +61,7 @@ if command -v clang++ >/dev/null; then
     done
 fi
 
-# What the exact core answers: answers.hpp.
+# Compares the answers of the exact core: answers.hpp.
 # answers COMPILER NAME "FLAGS OF THE BUILD" FLAGS...      the cases themselves are made under the former alone
 answers() {
     compiler=$1

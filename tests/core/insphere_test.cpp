@@ -27,7 +27,7 @@ Sign opposite(Sign s) {
 }
 
 /// Sign of the determinant of the rows (x, |x|^2, 1), by elimination and without differences: nothing in common with
-/// the formula of the library. Of points in space it is negative inside a positive simplex.
+/// the formula of the library. For points in space it is negative inside a positive simplex.
 Sign expected(const Points& p) {
     const std::size_t n = p.count();
     std::vector<std::vector<Q>> row(n);
@@ -232,8 +232,8 @@ TEST(Sides, ByHand) {
     for (const double* const p : {corner, a, b, c, d}) EXPECT_EQ(insphere(a, b, c, d, p), Sign::zero);
 }
 
-// What predicates.hpp says of these: the product with the orientation is zero, the sign alone tells sides of a line or
-// plane, if anything.
+// The statements of predicates.hpp about these: the product with the orientation is zero, the sign alone tells sides of
+// a line or plane, if anything.
 TEST(Sides, OfFlatSimplices) {
     const double a[2] = {0, 0}, b[2] = {1, 1}, c[2] = {3, 3}, above[2] = {0, 1}, below[2] = {1, 0}, on[2] = {7, 7};
     const Sign side = incircle(a, b, c, above);

@@ -363,8 +363,8 @@ std::string describe(const SixPoints& p) {
     return text;
 }
 
-/// Of one kind; for most, the last difference is a combination of the other two but for rounding, or a difference
-/// has one end in common with another.
+/// Makes points of one kind; for most, the last difference is a combination of the other two but for rounding, or a
+/// difference has one end in common with another.
 SixPoints hard_six(base::Random& r, Kind kind) {
     SixPoints p;
     for (auto& x : p) {

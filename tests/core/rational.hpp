@@ -1,4 +1,4 @@
-/// What the tests of the exact core hold it against: GMP's numbers, and rounding by its definition alone.
+/// References for tests of the exact core: GMP's numbers, and rounding by its definition alone.
 #pragma once
 
 #include <gmpxx.h>
@@ -99,7 +99,7 @@ inline std::uint64_t awkward_word(base::Random& r) {
     }
 }
 
-/// Of at most `size` limbs.
+/// An integer of at most `size` limbs.
 inline Integer awkward_integer(base::Random& r, int size) {
     std::uint64_t words[Integer::capacity];
     const bool ones = r.integer(0, 3) == 0;

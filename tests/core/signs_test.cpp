@@ -41,7 +41,7 @@ Sign orientation_of(const Case& c) {
     return c.simplex == Simplex::triangle ? orient2d(v, v + 2, v + 4) : orient3d(v, v + 3, v + 6, v + 9);
 }
 
-/// What the exact weights say.
+/// The signs of the exact weights.
 WeightSigns expected(const Case& c) {
     const auto w = second_path::weights(c);
     if (!w) return WeightSigns::degenerate_simplex();

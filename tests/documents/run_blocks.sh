@@ -86,7 +86,7 @@ awk -v folder="$folder/blocks" '
     NF { adjacent = 0 }
 ' "$sources/$document"
 
-# What differs from run to run, in `expected` and `printed` alike.
+# Replaces what differs from run to run, in `expected` and `printed` alike.
 settled() {
     sed -E -e 's/[0-9][0-9.e+-]* s([ ,;:]|$)/# s\1/g' -e 's/[0-9]+ threads?/# threads/g' \
         -e '/^(segment|triangle|triangle3d|tetrahedron)\.[^ :]+ .* [0-9.e+-]+$/s/ +[^ ]+$/ #/' -e 's/ +$//' "$1"

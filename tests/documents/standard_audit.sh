@@ -1,5 +1,5 @@
 #!/bin/sh
-# What `./run audit` does, once for all documents that show it: standard_audit.sh PROGRAMS FOLDER
+# Does what `./run audit` does, once for all documents that show it: standard_audit.sh PROGRAMS FOLDER
 #
 # FOLDER is replaced: audit.html, audit.json, witnesses.json; printed, what the command prints, stdout and stderr together;
 # exit, its exit code.

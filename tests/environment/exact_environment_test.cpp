@@ -124,8 +124,8 @@ int tasks_that_find_another() {
     return count;
 }
 
-// What the library relies on: an arena takes over the environment in which it is made, whoever asks later; a thread,
-// that of its maker. And what it must not rely on: the caller's own arena.
+// The library relies on this: an arena takes over the environment in which it is made, whoever asks later; a thread,
+// that of its maker. It must not rely on the caller's own arena.
 TEST(ExactEnvironment, ArenasAndThreadsTakeOverTheEnvironmentInWhichTheyAreMade) {
     for (const auto& e : all_environments()) {
         int callers = 0, own = 0, nested = 0, in_group = 0, in_thread = 0;

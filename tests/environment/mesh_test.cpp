@@ -790,7 +790,7 @@ TEST(EveryEnvironment, VerifiedResults) {
     });
 }
 
-// What a callback leaves behind ends with it.
+// A callback's changes to the environment end with it.
 TEST(EveryEnvironment, CallbacksThatChangeIt) {
     const Subject s = subjects()[6];
     const auto locator = Locator::build(s.mesh, {.prove = Prove::never});

@@ -19,7 +19,7 @@ struct Command {
     std::string program = BARYCERT_PROGRAM;
     bool forks = false;  ///< its work is done in a process that it forks
 
-    /// What the tests show of it.
+    /// Shows the command in tests.
     friend void PrintTo(const Command& c, std::ostream* out) { *out << c.name; }
 };
 

@@ -33,7 +33,7 @@ std::vector<long> spread(long count, std::size_t at_most) {
 
 class Faults : public ::testing::TestWithParam<Command> {
 protected:
-    /// What is wrong about the end of a run with a failed call; empty if nothing.
+    /// Says what is wrong about the end of a run with a failed call; empty if nothing.
     std::string wrong(const Ended& r, bool must_go_on) const {
         if (r.signal != 0) return "ended by signal " + std::to_string(r.signal);
         if (r.code == GetParam().code) {

@@ -1,4 +1,4 @@
-/// What a command leaves behind when nothing disturbs it, and what must hold when something does.
+/// Results of a command that nothing disturbs, and requirements when something does.
 #pragma once
 
 #include <chrono>
@@ -22,8 +22,8 @@ public:
     /// The same with the shim, which these variables instruct.
     cli_test::Ended run_with_shim(const test::Scratch& folder, Words variables) const;
 
-    /// What is wrong about the files: each must be the old one or the new one, whole. Empty if nothing is. `old` is
-    /// how many are the old one. After SIGKILL an unfinished name may be left beside a whole file.
+    /// Says what is wrong about the files: each must be the old one or the new one, whole. Empty if nothing is. Sets
+    /// `old` to how many are the old one. After SIGKILL an unfinished name may be left beside a whole file.
     std::string wrong_files(const test::Scratch& folder, std::size_t& old, bool may_leave_names = false) const;
 
     const std::map<std::string, long>& calls() const { return calls_; }  ///< by kind

@@ -51,7 +51,7 @@ TEST_F(NamedFiles, OutputsAreNoInputsAndDistinct) {
     ASSERT_FALSE(twice);
     EXPECT_EQ(twice.error().what, "--json and --plot name the same output");
     EXPECT_FALSE(base::check_distinct({}, {{"--json", "-"}, {"--plot", "-"}}));
-    // What is no regular file is not overwritten.
+    // An output that is no regular file is not overwritten.
     EXPECT_TRUE(base::check_distinct({{"--points", "/dev/null"}}, {{"--output", "/dev/null"}}));
 }
 

@@ -65,7 +65,7 @@ protected:
         only_names = false;
         if (!folder_.empty()) fs::remove_all(folder_);
     }
-    /// Of a file that is being written, the names there are.
+    /// The number of names of a file that is being written.
     std::size_t begun() const { return only_names ? 1 : 0; }
 
     std::string path(const char* name) const { return (folder_ / name).string(); }

@@ -54,7 +54,7 @@ def damaged(whole, random):
     for i in range(OF_EACH):
         text = bytearray(whole)
         if i % 3 == 0:
-            # What is missing is more than white space and the closing tags.
+            # The missing part is more than white space and the closing tags.
             yield True, bytes(text[:random.integers(len(text) * 95 // 100)])
             continue
         if i % 3 == 1:

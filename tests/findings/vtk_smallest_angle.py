@@ -43,7 +43,7 @@ corners[volumes < 0, 1], corners[volumes < 0, 2] = corners[volumes < 0, 2], corn
 angles, told = dihedral_angles(corners), by_vtk(corners)
 smallest = angles.min(1)
 too_large, too_small = told - smallest > 1e-6, smallest - told > 1e-6
-# What it computes instead: at the edges 02 and 13 the normals of the two faces point to the same side of the cell, in
+# VTK's result instead: at the edges 02 and 13 the normals of the two faces point to the same side of the cell, in
 # and in, or out and out, and the angle between them is 180 degrees less the dihedral one.
 instead = angles.copy()
 instead[:, [1, 4]] = 180 - instead[:, [1, 4]]

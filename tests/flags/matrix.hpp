@@ -15,7 +15,7 @@ struct Variant {
     bool flush = false;  ///< the library is run with subnormal operands and results flushed to zero
 };
 
-/// What a formula does under one set of flags.
+/// Results of a formula under one set of flags.
 struct Cell {
     bool ran = false;
     std::uint64_t cases = 0;

@@ -1,4 +1,4 @@
-/// What a library of formulas hands out. No standard library: its inline functions would be compiled under the
+/// Interface of a library of formulas. It uses no standard library, whose inline functions would be compiled under the
 /// variant's flags.
 #pragma once
 

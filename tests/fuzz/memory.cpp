@@ -42,7 +42,7 @@ std::size_t peak_memory() {
 }  // namespace barycert::fuzz
 
 #if defined(BARYCERT_HOOKS)
-// Of sanitizer/allocator_interface.h, which GCC 12 does not install.
+// Declared in sanitizer/allocator_interface.h, which GCC 12 does not install.
 extern "C" std::size_t __sanitizer_get_allocated_size(const volatile void* p);
 
 // The runtime calls these, by their names, after each allocation and before each release.
@@ -55,7 +55,7 @@ extern "C" void __sanitizer_free_hook(const volatile void* p) {
 #else
 #include <malloc.h>
 
-// What the library takes with new: all but what C libraries take for themselves.
+// Counts what the library takes with new: all but what C libraries take for themselves.
 void* operator new(std::size_t size) {
     void* const p = std::malloc(size);
     if (p == nullptr) throw std::bad_alloc();

@@ -1,4 +1,4 @@
-/// What was read, held against what was read of what was written.
+/// Compares what was read with what was read of what was written.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ enum class Payload { kept, lost };  ///< of NaNs: text has one NaN
 
 bool same_numbers(const std::vector<double>& a, const std::vector<double>& b, Payload payload);
 
-/// What a format cannot keep is set to the same in both beforehand. Notes and cell numbers are not compared.
+/// Requires: the caller has set what a format cannot keep to the same in both. Does not compare notes and cell numbers.
 void expect_same(const Mesh& a, const Mesh& b, Payload payload = Payload::kept);
 
 void expect_same(const std::vector<Column>& a, const std::vector<Column>& b);

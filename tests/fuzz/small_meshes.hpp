@@ -5,7 +5,8 @@
 
 namespace barycert::fuzz {
 
-/// Of `dimension` 2 or 3: two cells that share a facet; fields T (of nodes), v (of nodes, a vector) and q (of cells).
+/// A mesh of `dimension` 2 or 3: two cells that share a facet; fields T (of nodes), v (of nodes, a vector) and q (of
+/// cells).
 const Mesh& small_mesh(int dimension);
 
 }  // namespace barycert::fuzz

@@ -19,7 +19,7 @@ std::vector<Target>& targets() {
 void run(const Target& target, std::string_view input) {
     // Threads would only make an execution slow, and a finding hard to repeat.
     static const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
-    // What is made once and kept, such as the tables of a library, is not the input's.
+    // Memory that is taken once and kept, such as the tables of a library, is not the input's.
     static const bool warm = (target.run({}), true);
     static_cast<void>(warm);
     begin_memory();

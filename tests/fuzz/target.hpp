@@ -1,5 +1,4 @@
-/// What a target of the fuzzer is: bytes in, and an end of the process if anything is wrong with what is done with
-/// them.
+/// A target of the fuzzer: it takes bytes, and ends the process if anything is wrong with what is done with them.
 ///
 /// A target is one source of targets/. libFuzzer runs it from an executable of its own (fuzzer.cpp, Clang), the tests
 /// run all of them over the inputs in corpus/ and found/ (replay.cpp, any compiler).

@@ -61,7 +61,7 @@ make_bare_system() {
     timed debootstrap -- debootstrap --variant=minbase "$suite" "$system" "$mirror" >"$place/debootstrap.log" 2>&1 ||
         { tail -n 20 "$place/debootstrap.log" >&2; die "debootstrap failed"; }
     tail -n 1 "$place/debootstrap.log"
-    # What lets this machine reach the archive lets the bare one: names, sources, proxies, certificates.
+    # The bare system reaches the archive as this machine does: by its names, sources, proxies, certificates.
     share_with_system /etc/resolv.conf /etc/hosts /etc/ssl/certs/ca-certificates.crt /etc/apt/apt.conf
     if [ -z "$1" ] && [ "$suite" = bookworm ]; then
         # The mirror may be this machine's own mix of files; where none was named, take them as they are.

@@ -6,7 +6,7 @@ execute_process(COMMAND ${MOVED}/bin/barycert audit --count 1 --family mesh.insi
 if(NOT code EQUAL 0)
   message(FATAL_ERROR "exit code ${code}: ${errors}")
 endif()
-# That it is the installed copy of the data shows when one mesh more lies there.
+# Adds a mesh: the program finds it only if it uses the installed copy of the data.
 file(GLOB meshes ${SOURCE_DATA}/meshes/*.node)
 list(LENGTH meshes expected)
 foreach(ending node ele)

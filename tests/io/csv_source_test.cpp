@@ -75,7 +75,7 @@ TEST(CsvSource, CommentsBlankLinesAndLineEnds) {
         3, {1, 2, 3});
 }
 
-// What ends the last number needs not be a line end.
+// The last number may end without a line end.
 TEST(CsvSource, LastLinesWithoutLineEnd) {
     expect_points("1,2,3\n4,5,6 ", 3, {1, 2, 3, 4, 5, 6});
     expect_points("1 2 3\n4 5 6\t", 3, {1, 2, 3, 4, 5, 6});

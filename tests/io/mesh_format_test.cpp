@@ -105,7 +105,7 @@ TEST(MeshFormat, FilesThatAreNotRead) {
         EXPECT_EQ(mesh.error().message().find("no such file"), std::string::npos);
         std::filesystem::remove(folder / other.name);
         if (!io::other_format_by_suffix(other.name)) continue;
-        // What is not there is missing, whatever it would be.
+        // A file that is not there is missing, whatever it would be.
         const Result<Mesh> missing = read_mesh(folder / other.name);
         EXPECT_EQ(missing.error().what, "no such file");
         EXPECT_NE(missing.error().remedy.find("would not be read"), std::string::npos);

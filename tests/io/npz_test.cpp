@@ -96,8 +96,8 @@ assert (W != M.tocsr()).nnz == 0
     }
 }
 
-// Sizes beyond 4 GiB, and more entries than 32 bits count, stand in other fields; no test writes so much. What is asked
-// of the headers of small files is that a strict reader takes them.
+// Sizes beyond 4 GiB, and more entries than 32 bits count, stand in other fields; no test writes so much. The headers
+// of small files must satisfy a strict reader.
 TEST(NpzWeights, AreAZipArchive) {
     const TemporaryFolder folder;
     write_weights(folder, 10, 1000);

@@ -58,7 +58,7 @@ inline Result<std::vector<double>> read_bytes(const std::string& name, const std
     return read_file(folder / name, dimension, block);
 }
 
-/// What an error says, but for the file; no part checked that is nullptr, of the remedy only a part.
+/// An error's parts, but for the file; a part that is nullptr is not checked, and of the remedy only a part.
 struct Expected {
     std::size_t line;
     const char* what;

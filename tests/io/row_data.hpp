@@ -17,7 +17,7 @@ inline std::vector<TableField> fields_of(const std::vector<std::string>& names) 
     return fields;
 }
 
-/// What a TableView looks at.
+/// The arrays at which a TableView looks.
 struct RowData {
     TableFormat format;
     std::vector<double> points, values, distances;

@@ -1,4 +1,4 @@
-// What comes out goes in again: rows as points, with all their columns.
+// Rows that come out go in again as points, with all their columns.
 #include "tests/io/carried_points.hpp"
 #include "tests/io/row_data.hpp"
 

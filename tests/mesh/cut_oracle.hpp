@@ -1,4 +1,4 @@
-/// What is asked of cells that were cut, in plain integers: an oracle that shares no predicates with the library.
+/// Checks of cells that were cut, in plain integers: an oracle that shares no predicates with the library.
 #pragma once
 
 #include <map>

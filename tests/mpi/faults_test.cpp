@@ -1,4 +1,4 @@
-// What is wrong on one rank is an error on all, with the same text; and the next execution may be right.
+// A fault on one rank is an error on all, with the same text; and the next execution may be right.
 
 #include <gtest/gtest.h>
 
@@ -259,7 +259,7 @@ TEST(Faults, OfFiltersBefore) {
         const auto judge = probed<vtkBarycertProbe>(job.whole, job.mine);
         expect_same(probe->GetOutput()->GetPointData(), judge->GetOutput()->GetPointData());
     }
-    // Of points.
+    // The same for the filter before the points.
     vtkNew<Failing> before;
     before->piece = job.whole;
     before->how = job.here ? 1 : 3;
@@ -269,7 +269,7 @@ TEST(Faults, OfFiltersBefore) {
     expect_error(probe, job.who() + "what comes before this filter failed: ");
 }
 
-// That between them and the probe has no error of its own.
+// The filter between the failing one and the probe has no error of its own.
 TEST(Faults, OfFiltersFurtherBefore) {
     BrokenJob job;
     vtkNew<Failing> before;

@@ -70,7 +70,7 @@ TEST(Memory, ThatOneRankLacksEndsAll) {
             in_vtk::probe_pieces(exchange, {.mask = "vtkValidPointMask"}, Done{}, job.mine, piece, output, report);
         int untouched = rank() == ranks() / 2 && left > 0 ? 1 : 0;
         left = 0;
-        // That all know is known by messages, too.
+        // Ranks learn by messages, too, that all know.
         std::array<double, 3> facts{status ? -1.0 : 0, status ? 0 : -1.0, -1.0 * untouched};
         exchange.least(facts);
         ASSERT_FALSE(facts[0] == -1 && facts[1] == -1);

@@ -56,7 +56,7 @@ TEST(Owners, AreThoseOfTheWholeHoweverItIsCut) {
     }
 }
 
-// What the lowest global id is, is asked of the oracle; and many points must lie on seams.
+// The oracle says what the lowest global id is; and many points must lie on seams.
 TEST(Owners, OnSeamsAreTheLowestGlobalIds) {
     const Mesh mesh = box(3, {4, 2, 2});
     const auto whole = with_arrays(mesh);
@@ -151,7 +151,7 @@ TEST(Owners, OfCopiesThatDifferAreThoseOfTheLowestRank) {
     expect_as_of_the_whole(job.whole, copy, job.mine);
 }
 
-// Of a mesh of subnormal size, whose boxes are nothing where numbers are flushed.
+// The mesh has subnormal size: its boxes are nothing where numbers are flushed.
 TEST(Owners, AreTheSameInEveryEnvironment) {
     for (const double unit : {0x1p-1070, 0x1p-10}) {
         for (const Cut cut : {Cut::slabs, Cut::scattered}) {

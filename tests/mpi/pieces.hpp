@@ -14,7 +14,7 @@ class vtkPointData;
 
 namespace barycert::testing {
 
-/// Of this process in the job.
+/// This process's number in the job, and how many there are.
 int rank();
 int ranks();
 

@@ -8,7 +8,7 @@ from mutant_list import all_mutants
 HERE = Path(__file__).resolve().parent
 FLAGS = "-std=c++20 -O1 -ffp-contract=off -DHWY_SHARED_DEFINE -w".split()
 KILLER_FLAGS = "-std=c++20 -O1 -frounding-math -ffp-contract=off -w".split()
-# What the lanes are compiled for: one target with fused multiply-add, one without.
+# Targets of the lanes: one with fused multiply-add, one without.
 TARGETS = {"fma": "-march=haswell -maes -DHWY_COMPILE_ONLY_STATIC".split(), "split": ["-DHWY_COMPILE_ONLY_EMU128"]}
 TARGET_CHECK = {"fma": "HWY_NATIVE_FMA == 1 && HWY_TARGET == HWY_AVX2", "split": "HWY_NATIVE_FMA == 0"}
 PREPARE_LIBRARIES = "-lhwy -ltbb -lfmt -lmpfr -lgmpxx -lgmp -ldl -pthread".split()

@@ -1,4 +1,4 @@
-/// What the killer checks: cases with exact answers, made once by `prepare` and stored as they lie in memory.
+/// Cases that the killer checks, with exact answers, made once by `prepare` and stored as they lie in memory.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 """The rooms whose mutants meet the tests of the project: what is changed there, and what runs against it."""
 from dataclasses import dataclass, field
 
-# What a tired programmer would write: (file, exact text, replacement, why).
+# Mistakes of a tired programmer: (file, exact text, replacement, why).
 CHECK = [
     ("boundary.cpp", "if (fans < 2) ++fans;", "++fans;", "a count of fans in eight bits"),
     ("boundary.cpp", "if (same.size() == 2) piece_.join(same[0].facet, same[1].facet);",
@@ -116,7 +116,7 @@ ROOMS = {
     "sample": Room("sample", 100, SAMPLE, ["meshes", "weights", "expressions", "maps"], left_out=["ResampleBounds.NearFacesOfSlivers"],
                    last=["ResampleFuzz.*", "ResampleBounds.AlongFaces", "ResampleValues.A*", "ResampleOrder.*", "ResampleBoxes.PartsAndSlabs",
                          "SampleOrder.*", "ResampleCells.Slivers", "ResampleMeshes.AnyScale"]),
-    # What decides whether a kernel is wrong, and by how much.
+    # Sources that decide whether a kernel is wrong, and by how much.
     "audit": Room("audit", 60, AUDIT, last=["Contained.*", "Gaps.*"],
                   only=["asking.cpp", "block.cpp", "judge.cpp", "pictures.cpp", "statistics.cpp", "thresholds.cpp"]),
 }

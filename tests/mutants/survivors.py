@@ -18,7 +18,7 @@ TO_INFINITY = ("Slack: this limit is against overflow. Values and weights run to
 BOTH_SIDES = "Equivalent for answers: a guard with room on both sides of its end; a case exactly on it goes to the other tier."
 STRICT = ("Equivalent for answers: the bound is larger than the error it is for by 2 % at least, so what lies exactly on it "
           "may be certain or not.")
-# Of listed mutants: file, part of the text that is changed, replacement or "", explanation.
+# Listed mutants: file, part of the text that is changed, replacement or "", explanation.
 LISTED = [
     (F, "times(49, product)", "times(24, product)", climbed("9.0 e X Y Z", "7")),
     (F, "times(49, product)", "times(10, product)", climbed("9.0 e X Y Z", "7")),
@@ -78,7 +78,7 @@ LISTED = [
     (P, "49 * epsilon", "24 * epsilon", climbed("9.0 e X Y Z", "5")),
 ]
 
-# Of generated mutants: file, part of the line, replacement or "", explanation.
+# Generated mutants: file, part of the line, replacement or "", explanation.
 GENERATED = [
     (R, "out.error = scale *", "-", "Slack: the two parts seldom are alike, their difference is of the size of the larger, and a "
      "negative bound only exchanges the two ends."),

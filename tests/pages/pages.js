@@ -106,7 +106,7 @@ function poorContrast() {
   return Array.from(poor, ([what, contrast]) => `${what} ${contrast}`);
 }
 
-/// What any reader of the page's structure asks for.
+/// Checks what any reader of the page's structure asks for.
 function structure() {
   const wrong = [];
   if (document.documentElement.lang !== "en") wrong.push("no language");
@@ -242,7 +242,8 @@ async function turning(opened, mesh) {
   }
 }
 
-/// A mesh in the plane moves where it is dragged. Of a part of a mesh cells and nodes have the numbers of the whole, from 0.
+/// A mesh in the plane moves where it is dragged. In a part of a mesh cells and nodes have the numbers of the whole,
+/// from 0.
 async function turningOthers(opened, bracket) {
   await opened("flat", { viewport: { width: 900, height: 900 } }, async (page, where) => {
     const middle = () => page.evaluate(() => document.querySelector(".turning").viewer.pixelOf([1, 1, 0]));

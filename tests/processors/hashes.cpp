@@ -138,8 +138,8 @@ void add_rows(Hash& hash, const Table& rows) {
     for (const double x : rows.distances) hash.add(x);
 }
 
-/// What is found at nodes of a mesh, at middles of two of them and elsewhere on their lines; and on a grid that reaches
-/// beyond the mesh, cell by cell.
+/// Hashes answers at nodes of a mesh, at middles of two of them and elsewhere on their lines; and on a grid that
+/// reaches beyond the mesh, cell by cell.
 void mesh(const std::string& folder, const std::string& name) {
     Mesh mesh = read_mesh(folder + "/meshes/" + name).value();
     Hash hash, grid_hash;

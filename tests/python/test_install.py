@@ -27,7 +27,7 @@ def test_pip_installs(tmp_path):
 
     run(sys.executable, "-m", "venv", "--system-site-packages", "venv")
     python = tmp_path / "venv" / "bin" / "python"
-    # What is compiled is this build's: compiling it again would take minutes.
+    # The compiled part is this build's: compiling it again would take minutes.
     run(python, "-m", "pip", "install", "--config-settings", f"prebuilt={BUILD}", SOURCES)
     where = run(python, "-c", "import barycert; print(barycert.__file__)")
     assert where.startswith(str(tmp_path / "venv"))

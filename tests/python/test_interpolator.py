@@ -223,7 +223,7 @@ def test_points_that_are_not_finite_get_nan_and_are_counted(case):
     np.testing.assert_array_equal(np.delete(result, [7, 8, 9]), expected)
     theirs = interpolate.LinearNDInterpolator(points, values)(at)
     assert np.isnan(theirs[7]) and np.isnan(theirs[9])
-    # What is masked is as what is not finite, whatever stands under the mask; also of integers, and by coordinate.
+    # A masked point is like one that is not finite, whatever stands under the mask; also for integers, and by coordinate.
     hidden = np.ma.array(np.where(np.isfinite(at), at, 0.5), mask=~np.isfinite(at))
     np.testing.assert_array_equal(f(hidden), result)
     np.testing.assert_array_equal(f(*np.moveaxis(hidden, -1, 0)), result)

@@ -90,7 +90,7 @@ import barycert
 from barycert import _core
 from conftest import kuhn
 
-# What was started in the background may have been told to ignore it.
+# A process started in the background may have been told to ignore the signal.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 points, cells = kuhn(12, 3)
 mesh = barycert.Mesh(points, cells, point_data={{"T": points[:, 0]}})
@@ -100,7 +100,7 @@ options = lambda outside, threads: _core.SampleOptions(outside, np.nan, np.inf, 
 rng = np.random.default_rng(1)
 inside = lambda n: rng.random((n, 3)) * 12
 owners = lambda at: mesh.locate(at).cell
-# What is prepared, and the one call that is interrupted: about a second or more, on any machine.
+# Preparation, and the one call that is interrupted: about a second or more, on any machine.
 prepare, make = {{
     "sample": (lambda: inside(16_000_000), lambda at: (sampler.sample, at, options("nan", 1), None)),
     "nearest": (lambda: inside(3_000_000) * 100 + 20, lambda at: (sampler.sample, at, options("nearest", 1), None)),
@@ -245,7 +245,7 @@ def test_points_and_results_are_not_copied(mesh):
     rows, shape = points_of(at, 3)
     assert shape == (100, 4) and np.shares_memory(rows, at)
     assert exact_doubles(at, "points") is at
-    # What is not contiguous, or of another type, is copied, and means the same.
+    # An array that is not contiguous, or of another type, is copied, and means the same.
     flipped = np.asfortranarray(at)
     assert not np.shares_memory(points_of(flipped, 3)[0], flipped)
     np.testing.assert_array_equal(mesh.sample(flipped, "T"), mesh.sample(at, "T"))

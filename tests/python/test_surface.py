@@ -153,7 +153,7 @@ def test_copies_and_pickles(tmp_path):
     deep = copy.deepcopy(surface)
     deep.point_data["p"][:] = 0
     np.testing.assert_array_equal(surface.point_data["p"], points)
-    # What a file says of polygons goes along.
+    # The polygons of a file go along.
     lines = ["OFF", "8 6 0", *("%g %g %g" % tuple(p) for p in points), "4 0 1 3 2", "4 4 6 7 5", "4 0 4 5 1", "4 2 3 7 6",
              "4 0 2 6 4", "4 1 5 7 3", ""]  # fmt: skip
     (tmp_path / "cube.off").write_text("\n".join(lines))

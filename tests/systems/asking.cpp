@@ -19,8 +19,8 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-/// What a program prints; its messages go to the file `messages`. Returns how it ended, as a shell tells: 0 well, 124
-/// by `timeout`, 128 and more by a signal.
+/// Runs a program: sets `output` to what it prints, and writes its messages to the file `messages`. Returns how it
+/// ended, as a shell tells: 0 well, 124 by `timeout`, 128 and more by a signal.
 int run(const Words& words, const std::string& messages, std::string& output) {
     std::string line;
     for (const std::string& word : words) line += base::shell_word(word) + ' ';

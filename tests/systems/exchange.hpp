@@ -1,4 +1,4 @@
-/// What goes to a system and comes back: arrays in files of a folder, as they stand in memory.
+/// Data that go to a system and come back: arrays in files of a folder, as they stand in memory.
 ///
 /// A system is a program of its own, so that its threads, its crashes and its language stay there:
 ///     PROGRAM SYSTEM triangulate FOLDER    for systems that make their own triangulation: nodes -> cells
@@ -48,7 +48,7 @@ inline double now() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// What a system is asked.
+/// Question to a system.
 struct Question {
     explicit Question(const std::string& folder_with_arrays)
         : folder(folder_with_arrays),
@@ -73,7 +73,7 @@ struct Question {
     std::vector<double> values, points;
 };
 
-/// What it answers; empty arrays are not written.
+/// Its answer; empty arrays are not written.
 struct Answer {
     std::vector<std::int64_t> owners;
     std::vector<double> sampled;

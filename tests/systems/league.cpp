@@ -63,7 +63,7 @@ void summary(std::string& text, const League& league, CellKind kind) {
     }
 }
 
-/// What ended before it answered, in words.
+/// Says, in words, which systems ended before they answered.
 void failures(std::string& text, const League& league, CellKind kind) {
     for (const Standing& s : league.standings) {
         if (s.kind != kind) continue;

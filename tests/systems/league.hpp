@@ -1,4 +1,4 @@
-/// What systems answered, held against the exact owners and values.
+/// Answers of systems, compared with the exact owners and values.
 #pragma once
 
 #include <cstdint>

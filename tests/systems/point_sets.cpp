@@ -20,7 +20,7 @@ namespace {
 using At = std::array<double, 3>;
 using Corners = std::array<std::size_t, 4>;  ///< some corners of a cell, in any order
 
-/// What does not depend on the cells.
+/// Makes the sets that do not depend on the cells.
 class AnyMaker {
 public:
     AnyMaker(const Mesh& mesh, std::uint64_t seed)
@@ -148,7 +148,7 @@ private:
     std::vector<std::pair<std::size_t, std::size_t>> boundary_;  ///< cell, corner opposite
 };
 
-/// Of solids that are no linear simplices, by where their reference cells are taken to.
+/// Makes points of solids that are no linear simplices, by the images of places in their reference cells.
 class SolidMaker : public AnyMaker {
 public:
     SolidMaker(const Mesh& mesh, std::uint64_t seed) : AnyMaker(mesh, seed), cells_(test::whole_cells(mesh)) {

@@ -34,7 +34,7 @@ bool contains(const Names& names, const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// What is wrong with the names that were given; nothing if all are known.
+/// Says which of the names that were given is not known; nothing if all are.
 std::string unknown_name(const char* kind, const Names& given, const Names& known) {
     for (const std::string& name : given) {
         if (!contains(known, name))

@@ -61,7 +61,7 @@ TEST_F(Failing, AtOnce) {
     EXPECT_NE(text.find("| no answers |"), std::string::npos) << text;
 }
 
-// What it answered before counts.
+// Answers given before the failure count.
 TEST_F(Failing, WhenItIsTimed) {
     const Standing s = asked(answering(1));
     EXPECT_EQ(s.total.points, 80U);

@@ -27,7 +27,7 @@ vtkSmartPointer<vtkPolyData> poly_data_of(const Surface& surface);
 /// Points alone, three coordinates each.
 vtkSmartPointer<vtkPolyData> points_of(const std::vector<double>& points);
 
-/// What VTK and classes on it say while one of these lives is kept here, and not printed.
+/// Keeps what VTK and classes on it say while one of these lives, and does not print it.
 class Messages {
 public:
     Messages();

@@ -117,7 +117,7 @@ TEST(IndexCache, EndsWithTheSourceOfVtkResampleWithDataSet) {
     EXPECT_TRUE(watched.expired());
 }
 
-// What vtkStaticCellLocator answers follows cells that are not in the index, too.
+// Answers of vtkStaticCellLocator follow cells that are not in the index, too.
 TEST(IndexCache, OfTheSameTetrahedraStillSeesNewLines) {
     const auto grid = one_tetrahedron(cube_corners(), 0, 1, 2, 4);
     const vtkIdType near[2] = {0, 1}, far[2] = {6, 7};

@@ -373,7 +373,7 @@ TEST(DataSets, OfFloatsAreTakenAsTheyAre) {
     EXPECT_EQ(locator->FindCell(beyond), -1);
 }
 
-// What cannot be located exactly is an error that says why, and nothing is found.
+// A data set that cannot be located in exactly is an error that says why, and nothing is found.
 TEST(DataSets, ThatCannotBeTakenAreErrors) {
     const auto bad = two_cells();
     bad->GetPoints()->SetPoint(4, 1, 1, std::numeric_limits<double>::infinity());

@@ -104,12 +104,12 @@ vtkSmartPointer<vtkBarycertProbe> probed(vtkDataSet* data, const std::vector<dou
     return probe;
 }
 
-/// Of points that are inside, x and y in the mesh's axes.
+/// The point in the mesh's axes, x and y, for points that are inside.
 std::vector<double> in_mesh(const Mesh& mesh, const double* x) {
     return {x, x + mesh.dimension};
 }
 
-/// What vtkBarycertProbe and vtkBarycertLocator say, beside barycert's Sampler and node_weights. Polygons lie in z = 0.
+/// Compares vtkBarycertProbe and vtkBarycertLocator with barycert's Sampler and node_weights. Polygons lie in z = 0.
 /// Returns how many points are inside.
 int expect_as_sampled(vtkDataSet* data, Setting setting, std::size_t count) {
     const Mesh mesh = read_back(data);
@@ -303,7 +303,7 @@ TEST(Mixed, PolygonsInThePlaneAreSampled) {
     expect_as_sampled(polygons());
 }
 
-// Of cells that are cut, the oracle has the last word: the owner is that of the lowest part that holds the point.
+// The oracle has the last word on cells that are cut: the owner is that of the lowest part that holds the point.
 TEST(Mixed, OwnersAndWeightsAreThoseOfTheOracle) {
     for (vtkSmartPointer<vtkDataSet> data :
          {vtkSmartPointer<vtkDataSet>(mixed_block(4, 0.125, true)), vtkSmartPointer<vtkDataSet>(polygons())}) {
@@ -560,7 +560,7 @@ TEST(Mixed, WhatIsNotTakenAsAskedIsTold) {
     EXPECT_EQ(messages.count("multilinear interpolation is linear here"), 3) << messages.all();
 }
 
-// Those are errors, of the probe and the locator, and nothing is found.
+// Cells without known corners are errors of the probe and the locator, and nothing is found.
 TEST(Mixed, CellsWithoutKnownCornersAreErrors) {
     struct Bad {
         int type;

@@ -47,7 +47,7 @@ vtkSmartPointer<vtkUnstructuredGrid> plain(const Mesh& mesh) {
     return grid_of(mesh);
 }
 
-// Of the points of `out` in the mesh, with arrays as above.
+// Checks the values at those points of `out` that are in the mesh, with arrays as above.
 void expect_exact_values(const Mesh& mesh, vtkDataSet* out, vtkIdTypeArray* valid) {
     auto* const v = vtkDoubleArray::SafeDownCast(out->GetPointData()->GetArray("v"));
     auto* const id = vtkIdTypeArray::SafeDownCast(out->GetPointData()->GetArray("id"));

@@ -209,7 +209,7 @@ TEST(SurfaceCheck, TakesPolygons) {
     EXPECT_TRUE(roof.check->GetCertified()) << roof.said;
     EXPECT_NE(roof.row("facet_off_plane"), "");
 
-    // Of more corners, and with a triangle before them.
+    // Polygons of more corners, and with a triangle before them.
     CheckedSurface prism(polygons_of({0, 0, 0, 4, 0, 0, 4, 4, 0, 2, 1, 0, 0, 4, 0, 2, 2, 3},
                                      {{0, 1, 5}, {1, 2, 5}, {2, 3, 5}, {3, 4, 5}, {4, 0, 5}, {0, 4, 3, 2, 1}}));
     EXPECT_TRUE(prism.check->GetCertified()) << prism.said << prism.report();

@@ -532,7 +532,7 @@ void expect_values(const Surface& s, double tolerance) {
         for (int c = 0; c < 2; ++c)
             EXPECT_EQ(out->GetArray("f")->GetComponent(id, c), values[2 * i + static_cast<std::size_t>(c)]);
         EXPECT_EQ(out->GetArray("cell")->GetTuple1(id), n.cell);
-        // Of a point on the surface rounded once: from the exact sum.
+        // A value at a point on the surface is rounded once: from the exact sum.
         mpq_class g = 0, whole = 0;
         const RationalTriangle t = triangle_of(s, static_cast<std::size_t>(n.cell));
         const auto weights = weights_in(t, rational(&where[3 * i]));

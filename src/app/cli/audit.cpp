@@ -23,7 +23,7 @@ void check_files(const AuditArguments& a) {
         throw Exception({.what = "--with needs --html", .remedy = "it adds to the page"});
 }
 
-/// What other options say is of kernels, their cases and reports on them.
+/// Refuses options about kernels, their cases and reports on them in modes that audit something else.
 void check_alone(const AuditArguments& a) {
     const auto check = [&](const char* mode, const char* audited, std::initializer_list<std::string_view> fits) {
         const std::string other = given_option(*a.app, fits, true);

@@ -1,4 +1,4 @@
-/// What an audit is made of: meshes, kernels and families, by the words of the user.
+/// Inputs of an audit, named by the words of the user: meshes, kernels and families.
 #pragma once
 
 #include "barycert/audit_job.hpp"

@@ -22,7 +22,7 @@ constexpr std::string_view same_names =
     "tolerance value "
     "vtk_data weights width ";
 
-/// Those whose options have another.
+/// Members whose options have another name.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 7> other_names{{
     {"all", "--on-boundary"},
     {"cell_interpolation", "--interpolation"},
@@ -43,7 +43,7 @@ std::string option_of(std::string_view member) {
     return option;
 }
 
-/// Of names of members.
+/// Letters of the names of members.
 constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyz_";
 
 std::string remembered_arguments;
@@ -90,7 +90,7 @@ std::string with_command_name(std::string text) {
 }
 
 std::string with_options(std::string text) {
-    // What the rows of a file of a field belong to.
+    // Options for what the rows of a file of a field belong to.
     for (const auto& [name, option] : {std::pair("FieldFile::Of::points", "--point-field"),
                                        {"FieldFile::Of::cells", "--cell-field"},
                                        {"FieldFile::Of::either", "--field"}})

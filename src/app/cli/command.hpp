@@ -1,4 +1,4 @@
-/// What all subcommands do around their job: exit codes, what is said on stderr, how the program is called.
+/// Steps of all subcommands around their job: exit codes, messages on stderr, the name by which the program is called.
 #pragma once
 
 #include "barycert/result.hpp"
@@ -38,8 +38,8 @@ void prepare_for_want_of_memory();
 /// Text on stderr, its control characters this program's own (see printable()). A closed or full stderr is no error.
 void tell(std::string_view text);
 
-/// "error: ..." on stderr, with the options that set the members of jobs that it names; returns exit_error. What a
-/// subcommand throws as an Exception, as value() does, ends there, too.
+/// "error: ..." on stderr, with the options that set the members of jobs that it names; returns exit_error. An
+/// Exception that a subcommand throws, as value() does, ends there, too.
 int fail(Error error);
 
 /// "note: ..." on stderr for each that may change what results mean.

@@ -109,7 +109,8 @@ int explain(const CLI::App& app, const std::vector<std::string>& words) {
         above += (above.empty() ? "" : " ") + command->get_name();
         command = found.front();
     }
-    // Of the program itself help() would show that of the subcommand that was given: this one.
+    // Makes the program's help by its formatter: help() of the program would show that of the subcommand that was
+    // given, this one.
     const std::string text = command == &app
                                  ? app.get_formatter()->make_help(&app, app.get_name(), CLI::AppFormatMode::Normal)
                                  : command->help(above);

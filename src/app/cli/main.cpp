@@ -57,7 +57,7 @@ int run(int argc, char** argv) {
     prepare_for_want_of_memory();
 #endif
     fetch_memory_for_threads();
-    // What was compiled in cannot be set.
+    // Stops where the build itself is wrong: no call can set what was compiled in.
     if (const Status exact = check_environment(measure_environment()); !exact) return fail(exact.error());
     std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error to tell, like a full disk
 

@@ -92,7 +92,7 @@ inline constexpr const char* mesh_help =
     "A mesh: TetGen's or Triangle's .node/.ele, Gmsh's .msh, Medit's .mesh .meshb, VTK's .vtu .vtk .vtp .pvtu .vtm "
     ".pvd .vtu.series .vtp.series; others by way of meshio; any packed as .gz";
 
-/// What options are declared with: names, types, helps.
+/// Texts that declare options: names, types, helps.
 using Text = const std::string&;
 
 /// The options of pictures, for outputs that are none.
@@ -104,7 +104,8 @@ inline const std::vector<std::string_view> figure_options{
 /// Refuses what an option is given.
 [[noreturn]] void refuse_option(Text option, Text expected, Text found);
 
-/// The options of one subcommand. What they set must outlive the parser. Texts name the program as it is called.
+/// The options of one subcommand. The variables that they set must outlive the parser. Texts name the program as it is
+/// called.
 class Options {
 public:
     /// `exit_code` is set by the subcommand that has run.
@@ -132,7 +133,7 @@ public:
         return text_like(app_->add_option(name, text, with_command_name(help)), type,
                          !std::same_as<Texts, std::string>);
     }
-    /// Of an option that may be repeated, each text.
+    /// Takes each text of an option that may be repeated.
     CLI::Option* each(Text name, Text type, Text help, const std::function<void(Text)>& take) const;
 
     /// Sets what is not `given` without it.
@@ -163,9 +164,9 @@ public:
         };
         return parsed(name, type, help, fmt::format("a finite number of at least {}", base::shortest(least)), x, read);
     }
-    /// What take(text) reads; it returns false for what is not as `expected`.
+    /// Takes a text by take(text), which returns false for a text that is not as `expected`.
     CLI::Option* taken(Text name, Text type, Text help, Text expected, const std::function<bool(Text)>& take) const;
-    /// What read(text) makes of it; it returns nothing for what is not as `expected`.
+    /// Sets the value that read(text) returns; nothing means that the text is not as `expected`.
     template <class Value, class Read>
     CLI::Option* parsed(Text name, Text type, Text help, Text expected, Value& value, Read read) const {
         return taken(name, type, help, expected, [&value, read](const std::string& text) {
@@ -222,10 +223,10 @@ std::string given_option(const CLI::App& app, const std::vector<std::string_view
 /// NAME and VALUE of NAME=VALUE, neither of them empty; else refuses the option.
 std::pair<std::string, std::string> assignment(Text option, Text expected, Text text);
 
-/// What the help ends with where there are no other exit codes.
+/// Last line of the help where there are no other exit codes.
 inline constexpr const char* done_or_error = "Exit codes: 0 done; 2 usage or input error.";
 
-/// What two outputs of text say of themselves.
+/// Helps of two outputs of text.
 inline constexpr const char* json_instead = "Write the report as JSON; - is stdout and suppresses the table";
 inline constexpr const char* json_summary = "Write the summary as JSON; - is stdout";
 

@@ -98,7 +98,7 @@ std::optional<std::pair<std::string, std::vector<double>>> named_numbers(Text te
     return all ? std::optional(std::pair(text.substr(0, sign), *all)) : std::nullopt;
 }
 
-/// What of the mesh is drawn.
+/// Adds options for the parts of the mesh to draw.
 void add_choice(const Options& o, SceneChoice& show) {
     o.edges(show.edges, show.outline, "");
     o.flag("--no-surface", show.surface, "Without the boundary: --outline, --arrows, --points alone", false);

@@ -17,7 +17,7 @@ struct ReplayArguments : Arguments<CaseJob> {
     bool all = false;
 };
 
-/// What to do where no witness of the file matches; the nearest name, if none has that of --kernel or --reason.
+/// The remedy where no witness of the file matches; names the nearest one if none has that of --kernel or --reason.
 std::string where_none_matches(const CaseJob& wanted, const std::vector<Witness>& witnesses) {
     const char* const rest = "leave out --kernel and --reason to see all";
     for (const auto& wish : {std::pair(wanted.kernel, &Witness::kernel), std::pair(wanted.reason, &Witness::reason)}) {
@@ -44,7 +44,7 @@ void check_arguments(const ReplayArguments& a) {
             {.what = "cannot read the witnesses", .file = a.file, .expected = "a file", .found = "a folder"});
 }
 
-/// Those of the file, or the one that --family and --case describe, made again.
+/// Returns the witnesses of the file, or the one that --family and --case describe, made again.
 std::vector<Witness> witnesses_of(ReplayArguments& a, const std::vector<Kernel>& kernels) {
     if (!a.file.empty()) return read_witnesses(a.file).value();
     a.job.index = *a.index;

@@ -59,7 +59,7 @@ void BlockPipeline::read(BlockOfRows& block) {
 void BlockPipeline::locate_in(const Locator& locator) {
     const locate::LocatorData& data = locate::LocatorData::of(locator);
     cells_ = data.index.cell_count();
-    // What pays for all points would not for one block.
+    // Prepares for all points: it would not pay for one block.
     base::in_arena(threads_, cells_,
                    [&] { data.policy.prepare(std::max<std::uint64_t>(source_.count.value_or(0), taken_)); });
 }

@@ -67,7 +67,7 @@ Status write_measures(const CheckJob& job, const CheckReport& report, Mesh mesh)
     return write_vtu(mesh, job.measures, job.vtk_data.value_or(VtkData::raw));
 }
 
-/// What of the mesh the file has no place for, but for what follows from the cells, as neighbours do.
+/// Notes what of the mesh the file has no place for, except what follows from the cells, such as neighbours.
 Notes left_out_of(const std::string& path, const Mesh& mesh) {
     const io::MeshFormat format = *io::mesh_output_format(path);
     Notes notes;
@@ -136,7 +136,7 @@ void write_marks(const CheckJob& job, CheckedMesh& checked) {
     if (!written) checked.written = written.error();
 }
 
-/// Of the surface, or of the PLC that it is of.
+/// Checks the surface, or the PLC that it is of.
 void check_it(const CheckJob& job, const CheckOptions& options, CheckedMesh& checked, const std::optional<Plc>& plc) {
     refuse_options_of_meshes(job, plc ? "a PLC" : "a surface");
     checked.name = checked.artifact = job.mesh;

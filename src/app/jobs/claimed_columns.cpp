@@ -62,7 +62,8 @@ std::string chosen(const std::string& asked, const std::string& usual, const std
     return has(there, usual) ? usual : "";
 }
 
-/// As doubles; NaN for an empty text. Of a mask also the bytes 0 and 1, as vtkDelimitedTextWriter writes them.
+/// Numbers of a column as doubles; NaN for an empty text. A mask may have the bytes 0 and 1, too, as
+/// vtkDelimitedTextWriter writes them.
 std::vector<double> numbers_of(const std::vector<Column>& columns, const std::string& name, const VerifyJob& job,
                                std::uint64_t first_row, bool mask = false) {
     const Column& column = *std::ranges::find(columns, name, &Column::name);

@@ -53,9 +53,9 @@ struct Claims {
     std::vector<double> values;
 };
 
-/// What the columns say. Cells are indices in the mesh: those that the file numbers otherwise are translated, and those
-/// that the mesh does not have are beyond its last one. Refused, with rows counted from `first_row`: a text that is no
-/// number, a cell that is no integer. An empty text is NaN.
+/// Returns the claims of the columns. Cells are indices in the mesh: those that the file numbers otherwise are
+/// translated, and those that the mesh does not have are beyond its last one. Error, with rows counted from
+/// `first_row`: a text that is no number, a cell that is no integer. An empty text is NaN.
 Claims claims_of(const ClaimedColumns& which, const std::vector<Column>& columns, const Mesh& mesh,
                  const VerifyJob& job, std::uint64_t first_row);
 

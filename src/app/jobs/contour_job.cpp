@@ -168,7 +168,7 @@ public:
     }
 
 private:
-    /// What is computed at each point, such as a length, is no interpolation of what the nodes have.
+    /// A quantity that is computed at each point, such as a length, is no interpolation of what the nodes have.
     bool is_computed_at_points() const {
         return sample::shape_of(mesh_, sample::number_named(mesh_, job_.field).value()).value().at_points;
     }

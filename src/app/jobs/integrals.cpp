@@ -27,13 +27,14 @@ struct MeanRule {
     std::uint64_t denominator;
 };
 
-/// Of linear and quadratic functions on a simplex: their integrals over it are known in terms of nodal values.
+/// The rule for linear and quadratic functions on a simplex: their integrals over it are known in terms of nodal
+/// values.
 MeanRule rule_of_nodes(const Mesh& mesh) {
     if (mesh.mid_nodes.empty()) return {mesh.corners(), 1, 0, mesh.corners()};
     return mesh.dimension == 2 ? MeanRule{3, 0, 1, 3} : MeanRule{4, -1, 4, 20};
 }
 
-/// Of the numbers values[first + step * entity]. Exact, and rounded once.
+/// The integral of the numbers values[first + step * entity]. Exact, and rounded once.
 std::pair<double, std::uint64_t> integral(const Mesh& mesh, const std::vector<double>& values, std::size_t first,
                                           std::size_t step, const MeanRule& rule) {
     const check::ExactVolumes volumes(mesh.dimension, mesh.points);

@@ -1,4 +1,4 @@
-/// What becomes of cell fields that are sampled at the nodes of another mesh.
+/// Integrals that show what becomes of cell fields that are sampled at the nodes of another mesh.
 #pragma once
 
 #include "app/jobs/stream.hpp"

@@ -37,10 +37,10 @@ void add_fields_to(std::vector<base::NamedFile>& inputs, const std::vector<Field
     for (const FieldFile& f : files) add_input(inputs, "field " + f.name, f.path);
 }
 
-/// Refuses an output of a step that is an input or another output. Precondition: has_step_place(output).
+/// Refuses an output of a step that is an input or another output. Requires: has_step_place(output).
 void check_step_outputs(const std::vector<base::NamedFile>& inputs, const std::string& output,
                         const std::vector<Step>& steps) {
-    // By device and inode: there may be thousands of each. What does not exist is no input.
+    // By device and inode: there may be thousands of each. A file that does not exist is no input.
     std::map<std::pair<dev_t, ino_t>, std::string> known;
     const auto add = [&](const std::string& path, const std::string& what) -> const std::string* {
         struct stat status {};
@@ -67,7 +67,7 @@ Mesh open_mesh(const MeshJob& job, int threads, const StepChoice& step, CurvedCe
         .faces = false, .neighbours = false, .threads = threads, .step = step, .list_grids = list_grids};
     Mesh mesh = read_mesh(job.mesh, options).value();
     const CurvedCells straight = measure_curved(mesh, job.mesh, job.curved).value();
-    // Of steps, that with the largest deviation.
+    // Keeps, of several steps, the one with the largest deviation.
     if (straight.max_deviation >= curved.max_deviation) curved = straight;
     return mesh;
 }

@@ -1,5 +1,5 @@
-/// How all jobs open their meshes and fields, and what can be known of their files before the work. What goes wrong
-/// within a job is thrown as an Exception: its public function returns the Error.
+/// How all jobs open their meshes and fields, and what can be known of their files before the work. Errors within a job
+/// are thrown as Exceptions: its public function returns the Error.
 #pragma once
 
 #include <tbb/global_control.h>
@@ -77,7 +77,8 @@ using base::counted;
 
 // Series: fields of which there is a file for each step.
 
-/// What the * of its files stands for, or its time in a .pvd file, and the file of each series; or a step of the mesh.
+/// A step of series: what the * of their files stands for, or the time in a .pvd file, and the file of each series; or
+/// a step of the mesh.
 struct Step {
     std::string label;
     std::vector<FieldFile> files = {};
@@ -132,9 +133,9 @@ inline void check_outputs(const MeshJob& job, const std::vector<base::NamedFile>
     base::check_outputs(inputs, std::move(outputs)).value();
 }
 
-/// What can be known of files before the work: of a job with those outputs and, besides the mesh and fields, those
-/// inputs; `unread`: inputs, too, but who reads them tells what is wrong. Refused: an output that is an input or
-/// another output, or cannot be written; an input that cannot be read.
+/// Checks, before the work, what can be known of the files of a job with those outputs and, besides the mesh and
+/// fields, those inputs. `unread`: inputs, too, but their readers tell what is wrong with them. Error: an output that
+/// is an input or another output, or cannot be written; an input that cannot be read.
 void check_files(const MeshJob& job, std::vector<base::NamedFile> more_inputs, std::vector<base::NamedFile> outputs,
                  const std::vector<base::NamedFile>& unread = {});
 

@@ -78,7 +78,7 @@ Surface behind(const Surface& whole, const Plane& plane) {
     return out;
 }
 
-/// Of a mesh in the plane.
+/// The cells of a mesh in the plane.
 Surface cells_of(const Mesh& mesh, const CutOptions& fields) {
     Surface surface = surface::facets_of(mesh);
     for (const Field* f : fields.point_fields) surface.point_fields.push_back(*f);
@@ -263,7 +263,7 @@ void MeshFigure::add_lines(const std::vector<double>& points, std::vector<std::i
     figure_.lines.push_back({points, indices_.emplace_back(std::move(segments)), width, colour});
 }
 
-/// Not one that cuts a face of a cell in two, or lies in it. Of nodes.
+/// True for an edge between two nodes, but not if it cuts a face of a cell in two, or lies in one.
 bool MeshFigure::is_cell_edge(Mesh::Index cell, Mesh::Index a, Mesh::Index b) const {
     const auto& inside = mesh_->shapes.inside;
     if (inside.empty()) return true;
@@ -276,7 +276,7 @@ bool MeshFigure::is_cell_edge(Mesh::Index cell, Mesh::Index a, Mesh::Index b) co
     return mesh::feature_of_whole(inside[static_cast<std::size_t>(cell)], zeros, mesh_->dimension) == Feature::edge;
 }
 
-/// Those of cells, where the surface is a boundary; those where cells meet, where it cuts through them.
+/// Adds the edges of cells where the surface is a boundary, and the edges where cells meet where it cuts through them.
 void MeshFigure::add_edges(const Surface& surface) {
     std::vector<std::int32_t> segments;
     surface::for_edges(surface, [&](std::span<const surface::TriangleEdge> edge) {
@@ -341,7 +341,7 @@ void MeshFigure::add_arrows() {
     for (std::size_t k = 0; k < d; ++k) longest = std::max(longest, 2 * all[k].half());
     for (std::size_t k = 0; k < d; ++k) volume *= std::max(2 * all[k].half(), longest / 1000);
     const double side = std::pow(volume / static_cast<double>(show_.arrow_count), 1 / static_cast<double>(d));
-    // Of the points that a surface has, the nodes.
+    // Takes only those points of a surface that are nodes.
     std::vector<std::size_t> nodes;
     for (const Surface& s : surfaces_)
         for (std::size_t i = 0; i < s.mesh_edges.size(); i += 2)

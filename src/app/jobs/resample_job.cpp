@@ -288,7 +288,7 @@ void check_job(const ResampleJob& job, const std::vector<jobs::Step>& steps) {
                       base::named_files("job.output", outputs));
 }
 
-/// What its reader told, and the fields of nodes that the sampled ones replace.
+/// Notes what the other mesh's reader told, and the fields of nodes that the sampled ones replace.
 void note_the_other(SampledMesh& mesh, const ResampleJob& job, const Mesh& other) {
     Notes& notes = mesh.report.notes;
     notes.insert(notes.end(), other.notes.begin(), other.notes.end());
@@ -376,7 +376,7 @@ void onto_mesh(SampledMesh& mesh, const ResampleJob& job) {
     report.seconds.read = watch.lap();
     note_the_other(mesh, job, other);
     jobs::note_cell_fields(mesh, further);
-    // Files of the other mesh with the fields, or rows. Of a series there would be integrals of each step.
+    // Files of the other mesh with the fields, or rows. A series would have integrals of each step.
     const auto open = [&](const std::string& path) {
         const auto open_sink = [&](const TableFormat& format) {
             return to_rows ? jobs::open_rows(path, format)

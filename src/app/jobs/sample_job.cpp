@@ -61,7 +61,7 @@ void check_job(const SampleJob& job, const std::vector<jobs::Step>& steps) {
                       {{"job.output", job.output}, {"job.save_map", job.save_map}, {"job.plot", job.plot}});
 }
 
-/// Rows of a map, which must stay. Those of one point follow one another, their cells ascending.
+/// Rows of a map, which must stay. Rows of one point follow one another, their cells ascending.
 jobs::RowSource rows_of_map(MapReader& map) {
     const auto read = [&map, cell = Mesh::Index{-1}, before = std::array<double, 3>()](
                           std::size_t most, jobs::BlockOfRows& block) mutable {
@@ -162,7 +162,7 @@ void refuse_what_is_of_meshes(const SampleJob& job) {
                "values are those at the nearest point");
 }
 
-/// Those that are asked for, in that order; else all.
+/// Returns the fields that the job names, in that order; else all.
 std::vector<std::pair<const Field*, bool>> chosen_fields(const SampleJob& job, const Surface& s) {
     std::vector<std::pair<const Field*, bool>> all, chosen;
     for (const Field& f : s.point_fields) all.emplace_back(&f, false);
@@ -374,7 +374,7 @@ std::optional<Result<SampleReport>> at_surface(const SampleJob& job) try {
 
 Result<SampleReport> sample_files(const SampleJob& asked) {
     SampleJob job = asked;
-    // What a map holds was let in when it was made.
+    // Accepts all points of a map: they were accepted when it was made.
     if (!job.map.empty()) job.options.nonfinite_points = NonfinitePoints::nan;
     if (io::is_surface_file(job.mesh)) {
         if (const auto surface = at_surface(job)) return *surface;

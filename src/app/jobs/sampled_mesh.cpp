@@ -83,7 +83,7 @@ void SampledMesh::open() {
     report.seconds.mesh = watch.lap();
 }
 
-/// That of the step, or the one that the job asks for.
+/// Reads the mesh of the step, or the one that the job asks for.
 Mesh SampledMesh::read(std::optional<std::size_t> step) {
     return open_mesh(job, job.options.threads, step ? StepChoice{.number = step} : job.step, report.curved,
                      list_grids_);
@@ -204,7 +204,7 @@ void SampledMesh::choose_fields() {
     if (!labels_.empty() && names.empty()) return;
     fields_ = sample::quantities_named(mesh_, names).value();
     for (const FieldChoice& choice : fields_) count_not_finite(*choice.field, choice.of_cells, report.not_finite);
-    // What depends on all cells is made before some of them are looked at: up to the last mean.
+    // Quantities that depend on all cells, up to the last mean, are made before only some of the cells are looked at.
     for (FieldChoice& choice : fields_) {
         const auto is_mean = [](const QuantityStep& step) { return step.kind == QuantityStep::Kind::mean; };
         const auto last = std::find_if(choice.steps.rbegin(), choice.steps.rend(), is_mean);
@@ -256,7 +256,7 @@ void SampledMesh::prepare(std::span<const double> all_points) {
     build(mesh_, fields_, Prove::at_once);
     report.method = mesh_.is_listed() ? FoundBy::walk : FoundBy::axes;
     report.contested_cells += locator_->contested_cells();
-    // Of several meshes, that all are certified, or why one is not.
+    // The verdict on several meshes is that all are certified, or why one is not.
     if (report.verdict == Verdict::not_certified) return;
     report.verdict = locator_->certified() ? Verdict::certified : Verdict::not_certified;
     report.reason = reason_of(*locator_, locator_->degenerate_cells(),
@@ -275,7 +275,7 @@ std::optional<std::vector<Mesh::Index>> SampledMesh::cells_near(std::span<const 
     const bool fit = std::ranges::all_of(fields_, [&](const FieldChoice& choice) {
         return mesh::check_field(choice.field, choice.of_cells ? cells : mesh_.point_count(), "").has_value();
     });
-    // What is wrong with fields or points is told by the usual way.
+    // The usual way reports faults of fields and points.
     if (gives_distances(job.options.outside) || may_be_mapped() || !needs_no_index(count, cells) || !fit ||
         !mesh_.is_listed() || !base::all_finite(points))
         return std::nullopt;

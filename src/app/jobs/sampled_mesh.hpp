@@ -55,13 +55,13 @@ public:
         build(mesh_, fields_, Prove::never);
     }
 
-    /// Precondition: prepared.
+    /// Requires: prepared.
     const Locator& locator() const { return *locator_; }
     const Sampler& sampler() const { return *sampler_; }
 
     /// Calls each(output, first, anew) for every step that has an output of its own, else once; `anew`: the mesh is
     /// another than before, and is to be prepared. Refused: a file that cannot be read, or has other numbers of rows
-    /// or components than that of the first step. Precondition: prepared, after the first call.
+    /// or components than that of the first step. Requires: prepared, after the first call.
     template <class Each>
     void for_outputs(Each each) {
         if (!step_by_step()) return each(job.output, true, true);
@@ -77,7 +77,7 @@ public:
 
     /// Gives back what of the mesh sampling does not read again: of linear cells, unless points outside ask for their
     /// nearest cell or other steps follow, all but the values of cell fields, labels and numbers of cells.
-    /// Precondition: prepared; nobody else reads the mesh any more, but for its dimension.
+    /// Requires: prepared; nobody else reads the mesh any more, but for its dimension.
     void let_go_of_mesh();
 
     /// The weights of rows as the locator names their cells, on the nodes of the mesh. Not after let_go_of_mesh().
@@ -97,13 +97,13 @@ public:
         }
     }
 
-    /// What the rows of this job have, without labels.
+    /// The format of this job's rows, without labels.
     TableFormat format() const;
 
-    /// Those that are sampled.
+    /// The fields that are sampled.
     const std::vector<FieldChoice>& fields() const { return fields_; }
 
-    /// Those of cells that the job asked for.
+    /// The labels of cells that the job asked for.
     const std::vector<const Column*>& labels() const { return labels_; }
 
 private:

@@ -22,7 +22,7 @@ RowSource rows_again(const std::vector<Table>& known) {
     return {.located = true, .counted = true, .read = read};
 }
 
-/// What rows go into. A map and weights: a file, if not empty; `known`: filled, if not nullptr.
+/// Destinations of rows. A map and weights: a file, if not empty; `known`: filled, if not nullptr.
 struct Targets {
     std::string path, map = {}, weights = {};
     std::vector<Table>* known = nullptr;

@@ -53,7 +53,7 @@ public:
     void locate_in(const Locator& locator);
 
     /// Three stages at once: blocks are read one after the other, worked on side by side, and written in their order.
-    /// At most one block a thread, and two more, are in memory. What the first block throws ends it all.
+    /// At most one block a thread, and two more, are in memory. An exception of the first block ends it all.
     void run(const Stage& work, const Stage& write);
 
 private:
@@ -122,7 +122,7 @@ inline SampleOptions without_refusal(SampleOptions options) {
     return options;
 }
 
-/// That `what` ("point 7"), at `where`, is outside, and none may be.
+/// Returns the error that `what` ("point 7"), at `where`, is outside, and none may be.
 Error outside_error(const std::string& what, std::span<const double> where, const std::string& file);
 
 std::uint64_t count_nan(const TableView& rows);

@@ -1,4 +1,4 @@
-/// What a job tells of a surface: where in its polygons points lie, and what is inside.
+/// Words of jobs about a surface: where in its polygons points lie, and what is inside.
 #pragma once
 
 #include "barycert/surface_locator.hpp"
@@ -19,7 +19,7 @@ private:
     std::vector<Edge> edges_;  ///< ascending
 };
 
-/// What is told once for a run: by which rule points are inside, unless it is that of winding numbers, or why none is.
+/// Notes, once for a run, by which rule points are inside, unless it is that of winding numbers; or why none is.
 void note_sides(const SideRules& sides, const Surface& surface, const std::string& path, Notes& notes);
 
 }  // namespace barycert::jobs

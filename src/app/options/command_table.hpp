@@ -22,7 +22,7 @@ struct OptionEntry {
     bool repeats = false;      ///< may be given several times, or an operand several words
     bool may_be_bare = false;  ///< the value may be left out
 
-    // What completes the value.
+    // Completions of the value.
     std::vector<std::string> words;  ///< these
     bool files = false;              ///< names of files
 
@@ -43,8 +43,9 @@ using Vocabulary = std::map<std::string, std::vector<std::string>>;
 
 bool is_type_of_files(std::string_view type);
 
-/// Types of values, by which their words are found: parts between |. Those in small letters are words themselves (up to
-/// a [; with their = where one follows), names of files are completed as such, others are looked up in the vocabulary.
+/// Types of values, by which their words are found: parts between |. Parts in small letters are words themselves (up to
+/// a [; with their = where one follows). Names of files are completed as such; other parts are looked up in the
+/// vocabulary.
 CommandEntry command_table(const CLI::App& app, const Vocabulary& vocabulary, const std::string& above = {});
 
 /// Calls visit(command) for the command, and for all below it, depth first.

@@ -37,7 +37,7 @@ std::string words_of(const OptionEntry& option) {
     return fmt::format("{}", fmt::join(option.words, " "));
 }
 
-/// What completes a value or an operand, as assignments in the script.
+/// The completions of a value or an operand, as assignments in the script.
 std::string source_of(const OptionEntry& option) {
     const std::string words = option.words.empty() ? "" : "words=" + in_quotes(words_of(option));
     if (option.files) return words + (words.empty() ? "" : " ") + "files=1";

@@ -41,7 +41,7 @@ std::string headline(const CommandEntry& command) {
     return text;
 }
 
-/// What stands in the place of a value: words as they are, names of things in italics.
+/// The text in the place of a value: words as they are, names of things in italics.
 std::string man_value(const OptionEntry& option) {
     const auto capital = [](char c) { return std::isupper(static_cast<unsigned char>(c)) != 0; };
     const bool words = !option.words.empty() && std::ranges::none_of(option.type, capital);

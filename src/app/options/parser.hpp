@@ -18,9 +18,9 @@ inline std::string joined(const std::vector<std::string>& words) {
     return fmt::format("{}", fmt::join(words, "|"));
 }
 
-/// What the parser's message says, with a remedy: `did you mean "--output"? ` before the rest for the first word that
+/// Returns the parser's message with a remedy: `did you mean "--output"? ` before the rest, for the first word that
 /// looks like an option and is none of the command it was given to; the rest alone if there is no such word, or no
-/// option near. Options given twice are told, and by the words those with two values.
+/// option near. Tells options that were given twice; `words` show which of them have two values.
 std::string usage_error(const CLI::App& app, const std::exception& error, const std::string& rest,
                         std::span<const char* const> words = {});
 

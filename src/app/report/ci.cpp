@@ -27,7 +27,7 @@ std::ptrdiff_t failures(std::span<const CiOutcome> outcomes) {
     return std::ranges::count(outcomes, State::failed, &CiOutcome::state);
 }
 
-/// What is not plain stands as %xx.
+/// Codes characters that are not plain as %xx.
 std::string coded(std::string_view text, auto plain) {
     std::string out;
     for (const char c : text)

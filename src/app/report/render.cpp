@@ -1,4 +1,4 @@
-// What a picture shows, and what a run of cutting did.
+// Reports on pictures and on runs of cutting.
 
 #include "app/report/common/document.hpp"
 #include "barycert/report.hpp"
@@ -97,7 +97,7 @@ void tell_surface(Document& d, const ContourReport& s) {
                                  for_straight_sides(s.curved), n.tiers.double_double, n.tiers.exact));
 }
 
-/// What is not in the file, or is not what it looks like.
+/// Adds what is not in the file, or is not what it looks like.
 void tell_notes(Document& d, const ContourReport& s) {
     const CutCounts& n = s.counts;
     const auto note = [&](std::uint64_t count, std::string_view what, std::string_view text) {
@@ -114,7 +114,7 @@ void tell_notes(Document& d, const ContourReport& s) {
     for (const Note& told : s.notes) d.name("note", message(told), Tone::strong);
 }
 
-/// Of a section: with values at pixels, or of triangles.
+/// Describes a section: with values at pixels, or of triangles.
 std::string pixels_text(const ContourReport& s) {
     const FigureCounts& n = s.drawn;
     const std::string text =

@@ -1,4 +1,4 @@
-// What a run of sampling did.
+// Report on a run of sampling.
 
 #include "app/report/common/document.hpp"
 #include "barycert/report.hpp"
@@ -21,7 +21,7 @@ void tell_inside(Document& d, const LocationCounts& n, bool surface) {
                                            n.face, n.edge, n.vertex));
 }
 
-/// What became of points outside.
+/// Adds what became of points outside.
 void tell_outside(Document& d, const SampleReport& s) {
     const SampleCounts& n = s.counts;
     const std::uint64_t strange = n.locations.not_finite, without = n.without_value - strange;

@@ -1,4 +1,4 @@
-// What a verification of results found.
+// Report on a verification of results.
 
 #include "app/report/common/document.hpp"
 #include "barycert/report.hpp"
@@ -27,7 +27,7 @@ std::string value_clause(const VerifyReport& s, const WrongRow& row) {
                        base::shortest(row.value));
 }
 
-/// What is wrong with a row.
+/// Says what is wrong with a row.
 std::string example_sentence(const VerifyReport& s, const WrongRow& row) {
     std::string text = "point (" + coordinates(row.point, s.dimension, base::shortest, ",") + ") is " + where(row);
     switch (row.verdict) {
@@ -155,7 +155,7 @@ bool is_wrong(const VerifyReport& s, std::size_t b) {
     return b != 0 && (s.exact || std::pow(10.0, static_cast<double>(b) - 19) >= s.tolerance);
 }
 
-/// Of a column in ulps, and in parts of its range; red: wrong.
+/// Draws the errors of a column in ulps, and in parts of its range; red: wrong.
 std::vector<Picture> error_pictures(const VerifyReport& s, std::size_t c) {
     const ValueErrors& e = s.verdicts.columns[c];
     const std::uint64_t nan = e.missing + e.spurious;  // there, or where one is due

@@ -145,7 +145,7 @@ std::optional<int> parse_options(int argc, char** argv, Options& options) {
         try {
             app.parse(argc, argv);
         } catch (const CLI::RequiredError&) {
-            // That there is no INPUT is told below.
+            // The error is told below, where INPUT is missing.
         }
         if (options.input.empty()) throw std::invalid_argument("expected INPUT, a PLC");
     } catch (const CLI::Success& wish) {  // --help, --version

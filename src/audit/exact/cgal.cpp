@@ -39,8 +39,8 @@ mpq_srcptr rational(const Exact& x) {
     }
 }
 
-/// What `set` sets one of MPFR's numbers to by one function of MPFR, whose answer it returns: to nearest, ties to even,
-/// subnormals and overflow included.
+/// Returns the number that `set` computes by one function of MPFR, to nearest, ties to even, subnormals and overflow
+/// included. `set` sets the number it gets and returns what that function returned.
 template <class Set>
 double rounded(const Set& set) {
     const mpfr_exp_t low = mpfr_get_emin(), high = mpfr_get_emax();
@@ -144,7 +144,7 @@ std::optional<SignedWeights> triangle(const Case& c) {
         [](const auto&... w) { return CGAL::area(w...); });
 }  // NOLINT(clang-analyzer-cplusplus.NewDeleteLeaks): CGAL counts references
 
-/// Of a point in the plane of three others: with an apex off the plane.
+/// The same for a point in the plane of three others: adds an apex off the plane.
 std::optional<SignedWeights> in_plane(const std::array<Point3, 3>& v, const Point3& p) {
     const Point3 apex = v[0] + CGAL::cross_product(v[1] - v[0], v[2] - v[0]);
     return replaced(

@@ -1,4 +1,4 @@
-/// What objects of CGAL meet in: CGAL 5 answers with Boost's variant, CGAL 6 with that of the standard library.
+/// Reads the variant in which CGAL returns an intersection: Boost's in CGAL 5, the standard library's in CGAL 6.
 #pragma once
 
 #include <boost/variant/get.hpp>

@@ -2,10 +2,10 @@
 /// exact numbers rounded to the nearest double, ties to even, subnormals and overflow included.
 ///
 /// The number type is Boost.Multiprecision's cpp_int, which CGAL supports as a number type of its own
-/// (CGAL/boost_mp.h). Of CGAL's number types, measured on four signs of (point, tetrahedron): Mpzf 1.7 us, cpp_int 2.1
-/// us, gmp_int 3.9 us, Gmpz 6.1 us, Gmpq 12.3 us, Epeck 17.7 us; but most meshes need no more than 61 bits a
-/// coordinate, and there machine words and a fixed-width cpp_int do the same in a fraction of that. So one algorithm is
-/// compiled for two sets of types, `Narrow` and `Wide`.
+/// (CGAL/boost_mp.h). Times of CGAL's number types for four signs of (point, tetrahedron): Mpzf 1.7 us, cpp_int 2.1 us,
+/// gmp_int 3.9 us, Gmpz 6.1 us, Gmpq 12.3 us, Epeck 17.7 us; but most meshes need no more than 61 bits a coordinate,
+/// and there machine words and a fixed-width cpp_int do the same in a fraction of that. So one algorithm is compiled
+/// for two sets of types, `Narrow` and `Wide`.
 #pragma once
 
 #include <CGAL/boost_mp.h>
@@ -38,7 +38,7 @@ struct Dyadic {
     int length = 0;  ///< bits of |mantissa|
 };
 
-/// Precondition: x finite.
+/// Requires: x finite.
 inline Dyadic dyadic(double x) {
     const auto word = std::bit_cast<std::uint64_t>(x);
     const int biased = static_cast<int>((word >> 52) & 0x7ff);
@@ -71,7 +71,7 @@ struct Scale {
     int bits() const { return high - low; }
 };
 
-/// x / 2^low as an integer. Preconditions: x is a multiple of 2^low; for std::int64_t also |x| < 2^(low + 62).
+/// x / 2^low as an integer. Requires: x is a multiple of 2^low; for std::int64_t also |x| < 2^(low + 62).
 template <class Integer>
 Integer scaled(double x, int low) {
     const Dyadic d = dyadic(x);
@@ -83,14 +83,14 @@ Integer scaled(double x, int low) {
     }
 }
 
-/// What is known of the part of a number below its last kept bit.
+/// Position of the part of a number below its last kept bit, as far as it is known.
 enum class Tail : std::uint8_t {
     zero,
     positive,  ///< in (0, 1)
     unknown,   ///< in (-2^-5, 1)
 };
 
-/// Rounds (q + t) * 2^exponent with t described by `tail`. Precondition: q >= 2^54.
+/// Rounds (q + t) * 2^exponent with t described by `tail`. Requires: q >= 2^54.
 /// Nothing is returned where an unknown tail would decide.
 inline std::optional<double> round_scaled(std::uint64_t q, Tail tail, int exponent) {
     const int length = static_cast<int>(std::bit_width(q));
@@ -108,7 +108,7 @@ inline std::optional<double> round_scaled(std::uint64_t q, Tail tail, int expone
     return std::ldexp(static_cast<double>(m), dropped + exponent);  // m <= 2^53: exact, or infinity as it should be
 }
 
-/// Bits of |n|. Precondition: n != 0.
+/// Bits of |n|. Requires: n != 0.
 inline int bit_length(const auto& n) {
     const auto& b = n.backend();
     static_assert(sizeof(*b.limbs()) == 8, "limbs of 64 bits");
@@ -116,7 +116,7 @@ inline int bit_length(const auto& n) {
 }
 
 /// The leading `bits` (at most 128) bits of |n|; shorter ones are filled up with zeros from the right. `shift` becomes
-/// the power of two left out: |n| = (result + rest) * 2^shift, 0 <= rest < 1, and rest = 0 if shift <= 0. Precondition:
+/// the power of two left out: |n| = (result + rest) * 2^shift, 0 <= rest < 1, and rest = 0 if shift <= 0. Requires:
 /// n != 0. Reads the limbs in place, for speed.
 template <class Integer>
 UInt128 leading_bits(const Integer& n, int bits, int& shift) {
@@ -132,7 +132,7 @@ UInt128 leading_bits(const Integer& n, int bits, int& shift) {
     return offset == 0 ? low : low | (static_cast<UInt128>(limb(first + 2)) << (128 - offset));
 }
 
-/// (numerator / denominator) * 2^exponent, correctly rounded. Precondition: denominator != 0.
+/// (numerator / denominator) * 2^exponent, correctly rounded. Requires: denominator != 0.
 ///
 /// First from leading bits: n in [n', n'+1) 2^a with 2^118 <= n' < 2^119 and d in [d', d'+1) 2^b with 2^62 <= d' <
 /// 2^63. With q = floor(n'/d'), which has 56 or 57 bits, the quotient x = (n/d) 2^(b-a) obeys
@@ -161,7 +161,7 @@ double round_quotient(const Integer& numerator, const Integer& denominator, int 
     return sign < 0 ? -result : result;
 }
 
-/// sqrt(numerator / denominator) * 2^exponent, correctly rounded. Preconditions: numerator >= 0, denominator > 0.
+/// sqrt(numerator / denominator) * 2^exponent, correctly rounded. Requires: numerator >= 0, denominator > 0.
 ///
 /// floor(sqrt(x)) = floor(sqrt(floor(x))), so the integer root of the shifted quotient is the truncated root, and it
 /// is exact only if neither the division nor the root left a rest.

@@ -27,7 +27,7 @@ inline constexpr std::uint32_t max_workers = 64;
 /// Cases in one batch.
 inline constexpr std::size_t batch_size = 256;
 
-/// What a kernel does besides answering, as bits: bit i is the audit's finding i.
+/// Things that a kernel does besides answering, as bits: bit i is the audit's finding i.
 enum Incident : std::uint8_t {
     incident_crashed = 1,       ///< its process ended; there is no answer
     incident_raised = 2,        ///< a callable raised an exception; there is no answer
@@ -38,11 +38,11 @@ enum Incident : std::uint8_t {
     incident_printed = 64,      ///< wrote to stdout or stderr
 };
 
-/// What to hand to a kernel: weights that are not an answer.
+/// Weights that are no answer: a kernel gets them to overwrite.
 inline constexpr double unset = std::numeric_limits<double>::quiet_NaN();
 inline constexpr std::array<double, 4> unset_weights{unset, unset, unset, unset};
 
-/// What a kernel answers to one case.
+/// Answer of a kernel to one case.
 struct Answer {
     int status = 0;  ///< 1: declared degenerate
     int region = 0;  ///< of the kernel's own classification
@@ -77,7 +77,7 @@ struct LibraryFunctions {
     LibraryFunctions() = default;
     explicit LibraryFunctions(void* library);
 
-    /// What the library says of itself, or which function is missing.
+    /// Returns the library's description of itself, or which function is missing.
     Description described() const;
 };
 

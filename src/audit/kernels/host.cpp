@@ -43,7 +43,7 @@ std::string not_loaded_within(int milliseconds) {
 
 [[noreturn]] void become_server(Channel* channels, int socket, const char* path) {
     for (int signal = 1; signal < 32; ++signal) std::signal(signal, SIG_DFL);
-    // What the terminal sends is meant for the program, whose end is this process's end.
+    // Signals of the terminal are meant for the program, and this process ends when the program ends.
     for (const int signal : {SIGINT, SIGQUIT, SIGHUP}) std::signal(signal, SIG_IGN);
     if (socket != 3) dup2(socket, 3);
     close_range(4, ~0U, 0);

@@ -10,7 +10,7 @@
 
 namespace barycert::kernels {
 
-/// What a kernel says of a case, whether it runs in this process or in one of its own.
+/// Statement of a kernel about a case, whether it runs in this process or in one of its own.
 struct Statement : Answer {
     bool ran = true;                      ///< false: the kernel has been given up, and was not asked
     bool answered = true;                 ///< false: it ran and gave no answer
@@ -34,7 +34,7 @@ public:
     Host(const Host&) = delete;
     Host& operator=(const Host&) = delete;
 
-    /// What it says of itself; error, missing and note aside.
+    /// The kernel's description of itself, without error, missing and note.
     const Description& description() const { return description_; }
 
     enum class Asking {

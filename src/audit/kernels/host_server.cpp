@@ -62,8 +62,8 @@ void limit_worker() {
     lower(RLIMIT_CORE, 0);
     lower(RLIMIT_FSIZE, rlim_t{1} << 26);  // a kernel that prints without end does not fill the memory
     std::array<char, 256> text{};
-    // What may be written to and is not shared: addresses that are only set aside, as runtimes do, are free. The
-    // program's own memory, of which this process is a copy, counts; the kernel has a part of half the machine's.
+    // Limits memory that may be written and is not shared: addresses that are only set aside, as runtimes do, are free.
+    // The program's own memory, of which this process is a copy, counts; the kernel has a part of half the machine's.
     unsigned long long data = 0;
     if (std::sscanf(text_of("/proc/self/statm", text), "%*u %*u %*u %*u %*u %llu", &data) == 1) {
         const auto pages = static_cast<rlim_t>(std::max(sysconf(_SC_PHYS_PAGES), 0L)),

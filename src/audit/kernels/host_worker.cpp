@@ -114,7 +114,7 @@ void set_streams(int printed) {
     std::setvbuf(stdout, nullptr, _IONBF, 0);
 }
 
-/// What is not as it should be in the floating-point environment, in words; nothing if all is.
+/// Says, in words, how the floating-point environment was changed; nothing if it was not.
 const char* changed_environment() {
     if (rounds_correctly()) return nullptr;
     const int rounding = std::fegetround();
@@ -129,7 +129,7 @@ const char* changed_environment() {
     return "floating-point exceptions or precision changed";
 }
 
-/// What the system clears in every process made of this one, by whatever call.
+/// A mark that the system clears in every process made of this one, by whatever call.
 const volatile char* the_original = nullptr;
 
 void mark_original() {
@@ -245,7 +245,7 @@ private:
         return a;
     }
 
-    /// What the function that was just called left behind.
+    /// Notes, and mends, what the function that was just called left behind.
     void look(Answer& a, std::size_t n) {
         leave_if_forked();
         if (!rounds_correctly()) [[unlikely]] {
@@ -260,7 +260,7 @@ private:
         }
     }
 
-    /// What was done outside of this process since the last look, in words too. It is undone.
+    /// Notes, in words too, what was done outside of this process since the last look, and undoes it.
     template <std::size_t room>
     std::uint8_t look_around(char (&words)[room]) const {
         std::uint8_t incidents = 0;

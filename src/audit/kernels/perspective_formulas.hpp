@@ -47,7 +47,7 @@ int perspective_projected_z(const T* v, const T* p, T* w) {
     return with_depths(v, p, {projected_z(v[2]), projected_z(v[5]), projected_z(v[8])}, w);
 }
 
-/// v/w and 1/w are linear in the window: interpolate both there, by signed areas, and divide. Of a weight, v is 1 at
+/// v/w and 1/w are linear in the window: interpolate both there, by signed areas, and divide. For a weight, v is 1 at
 /// one vertex and 0 at the others.
 template <class T>
 int perspective_varying(const T* v, const T* p, T* w) {

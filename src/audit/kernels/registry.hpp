@@ -8,7 +8,7 @@ namespace barycert::kernels {
 
 enum class Declares : bool { no, yes };
 
-/// What else there is of a formula.
+/// Further facts about a formula.
 struct More {
     WeightsFunction Variants::*variants = nullptr;  ///< compiled under other flags
     WeightsFunction single = nullptr;               ///< in single precision, `<name>.float32`
@@ -66,8 +66,8 @@ double value_in_float(const double* vertices, const double* point, const double*
 ///
 /// dlopen maps what the headers of an ELF file announce, and touches it: where the file ends before that, the system
 /// ends the process (SIGBUS). So every part that a header names must lie within the file. Errors: the file cannot be
-/// read, is no regular file, is no shared library in ELF for this machine, or is truncated. What its code does, and
-/// whether headers that agree with the file's size are true, is not looked at.
+/// read, is no regular file, is no shared library in ELF for this machine, or is truncated. Does not look at what its
+/// code does, nor at whether headers that agree with the file's size are true.
 Status check_shared_library(const std::string& path);
 
 }  // namespace barycert::kernels

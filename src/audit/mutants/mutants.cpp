@@ -15,7 +15,7 @@ struct Telling {
     double weight = 0;
 };
 
-/// What tells the mutant from the sound kernel in one family; no figure if nothing does.
+/// Finds the figure that best tells the mutant from the sound kernel in one family; no figure if none does.
 Telling compare_figures(const KernelStatistics& sound, const KernelStatistics& mutant) {
     Telling best;
     const auto consider = [&](std::string_view figure, double s, double m, double weight) {

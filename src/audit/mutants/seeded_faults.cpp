@@ -39,7 +39,7 @@ void turn_all(double* w, int n) {
     for (int i = 0; i < n; ++i) w[i] = -w[i];
 }
 
-// Of signed areas and volumes.
+// Faults in signed areas and volumes.
 constexpr FaultyFormula areas_and_volumes[] = {
     {"triangle.signed-area", "swapped-vertices", "the weights of b and c are exchanged", signed_area<double>,
      [](Numbers, Numbers, double* w) { std::swap(w[1], w[2]); }},
@@ -102,7 +102,7 @@ constexpr FaultyFormula areas_and_volumes[] = {
      }},
 };
 
-// Of projections on segments and triangles in space, and of perspective.
+// Faults in projections on segments and triangles in space, and in perspective.
 constexpr FaultyFormula projections[] = {
     {"segment.dominant-axis", "wrong-comparison", "takes the axis on which the segment is shortest",
      [](Numbers v, Numbers p, double* w) {

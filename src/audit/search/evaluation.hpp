@@ -20,7 +20,7 @@ constexpr bool is_finding(std::size_t reason, Finding f) {
 }
 
 /// max |exact weight|, at least 1 / (number of weights), for they sum up to 1; grows as the cell gets flat. One beyond
-/// the largest double is compared as that one. Precondition: not degenerate.
+/// the largest double is compared as that one. Requires: not degenerate.
 inline double largest_weight(const OracleAnswer& exact) {
     double max = 0;
     for (const double w : exact.weights) max = std::max(max, std::fabs(w));
@@ -32,7 +32,7 @@ inline double relative_error(const OracleAnswer& exact, const Comparison& compar
     return exact.region == Region::degenerate ? -1 : comparison.weight_error / largest_weight(exact);
 }
 
-/// Precondition: all numbers of the case are finite, depths above zero.
+/// Requires: all numbers of the case are finite, depths above zero.
 inline Evaluation evaluate(const Kernel& kernel, const Case& c) {
     Evaluation e;
     e.exact = ask_oracle(c);
@@ -43,7 +43,7 @@ inline Evaluation evaluate(const Kernel& kernel, const Case& c) {
     return e;
 }
 
-/// Those of witnesses, and the relative error.
+/// Reasons of witnesses, and the relative error.
 inline constexpr std::size_t search_reasons = witness_reasons + 1;
 
 constexpr std::string_view search_reason_name(std::size_t reason) {
@@ -75,9 +75,9 @@ inline double magnitude(std::size_t reason, const Evaluation& e) {
     return e.comparison.weight_error;
 }
 
-/// How bad the case is for that reason; -1 if it does not show it. Of findings that is the relative error, so that a
-/// wrong sign counts by what it does to a value; where an answer is missing or not finite the better cell is the worse
-/// fault.
+/// How bad the case is for that reason; -1 if it does not show it. For findings that is the relative error, so that a
+/// wrong sign counts by its effect on a value. If an answer is missing or not finite, the fault is worse the better the
+/// cell is.
 inline double badness(std::size_t reason, const Evaluation& e) {
     if (reason >= finding_count) return std::isfinite(magnitude(reason, e)) ? magnitude(reason, e) : -1;
     if (e.comparison.counts[reason] == 0) return -1;

@@ -71,7 +71,7 @@ inline int plain_cost(const Case& c) {
 }
 
 /// x rounded to `bits` significant bits, to nearest, plus `steps` units of the last of them. The significand may gain a
-/// bit by carrying over. Precondition: x finite, not zero, bits >= 1.
+/// bit by carrying over. Requires: x finite, not zero, bits >= 1.
 inline double rounded_to(double x, int bits, int steps = 0) {
     int exponent = 0;
     const double m = std::frexp(x, &exponent);
@@ -89,7 +89,7 @@ void wander(Case& c, base::Random& random, bool values);
 /// Asks for a case; nothing more may be asked once it returns null.
 using Ask = std::function<const Evaluation*(const Case&)>;
 
-/// What is to become zero, and the number that is moved for it.
+/// A quantity that is to become zero, and the number that is moved for it.
 struct Zero {
     std::size_t weight = 0;  ///< this weight,
     bool of_cell = false;    ///< or the determinant of the cell over the numerator of this weight

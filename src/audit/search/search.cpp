@@ -25,7 +25,7 @@ struct Met {
     Evaluation evaluation;
 };
 
-/// What a walk, or all so far, have met.
+/// Cases that a walk met, or that all walks met so far.
 struct Harvest {
     std::uint64_t steps = 0, wrong_cases = 0;
     std::array<std::uint64_t, search_reasons> cases{};

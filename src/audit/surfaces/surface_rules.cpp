@@ -274,7 +274,7 @@ bool one_side(const std::array<double, 3>& h) {
     return (h[0] > 0 && h[1] > 0 && h[2] > 0) || (h[0] < 0 && h[1] < 0 && h[2] < 0);
 }
 
-/// What the plane cuts out of a triangle, along an axis.
+/// The interval, along an axis, that the plane cuts out of a triangle.
 std::array<double, 2> interval(const Triangle& t, const std::array<double, 3>& h, int axis) {
     std::array<double, 2> cut{HUGE_VAL, -HUGE_VAL};
     const auto take = [&](double x) { cut = {std::min(cut[0], x), std::max(cut[1], x)}; };

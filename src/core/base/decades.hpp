@@ -21,7 +21,7 @@ inline std::size_t decade_bin(double x) {
     return 1 + static_cast<std::size_t>(above - decade_edges.begin());
 }
 
-/// "< 1e-16", of the last ">= 100". Precondition: 1 <= bin < decade_bins.
+/// "< 1e-16", of the last ">= 100". Requires: 1 <= bin < decade_bins.
 inline std::string decade_label(std::size_t bin) {
     if (bin > decade_edges.size()) return ">= 100";
     const int exponent = static_cast<int>(bin) - 18, size = exponent < 0 ? -exponent : exponent;

@@ -27,7 +27,7 @@ inline std::size_t first_not_finite(std::span<const double> numbers) {
     return static_cast<std::size_t>(bad - numbers.begin());
 }
 
-/// That `what`, which is x, is not.
+/// Returns the error that `what`, which is x, is not finite.
 inline Error not_finite(std::string what, double x, std::string remedy = {}) {
     return file_error({}, std::move(what), "a finite number", std::to_string(x), std::move(remedy));
 }

@@ -12,8 +12,8 @@ template <class Value>
 class Lists {
 public:
     Lists() = default;
-    /// Of keys below `keys`; each list in the order in which each(add) calls add(key, value). It is called twice, to
-    /// count and to fill, and must do the same.
+    /// Makes the lists of all keys below `keys`, each in the order in which each(add) calls add(key, value). Calls
+    /// `each` twice, to count and to fill: it must do the same both times.
     template <class Each>
     Lists(std::size_t keys, const Each& each) : begin_(keys + 2, 0) {
         // First how many of each key, two entries behind; then, one behind, where the next one goes.

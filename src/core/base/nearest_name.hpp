@@ -19,7 +19,7 @@ std::string nearest_name(std::string_view word, const std::vector<std::string>& 
 /// `did you mean "NAME"? ` and the rest, which is alone where no name is near: a remedy for Error::remedy.
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& names, std::string_view rest = {});
 
-// What is in a folder. In place of std::filesystem::directory_iterator, which ends the process where memory is short.
+// Lists a folder. Stands in for std::filesystem::directory_iterator, which ends the process where memory is short.
 
 /// Names of all in a folder but "." and "..", sorted. `failed` tells why they are not all there.
 std::vector<std::string> names_in_folder(const std::string& folder, std::error_code& failed);

@@ -17,7 +17,7 @@ bool is_printable(char32_t code) {
     return !(code >= 0x2060 && code <= 0x2069) && code != 0x61C && code != 0xFEFF;  // isolates, marks without width
 }
 
-/// Of a byte, with leading zeros.
+/// The digits of a byte in that base, with leading zeros.
 std::string digits_of(unsigned char byte, unsigned base, std::size_t width) {
     std::string out(width, '0');
     for (unsigned rest = byte; width > 0; rest /= base) out[--width] = "0123456789abcdef"[rest % base];

@@ -19,7 +19,7 @@ namespace barycert::base {
 std::string shortest(double x);
 
 /// x with so many digits, as printf writes it in the C locale: behind the point (%.*f, %.*e), or in all (%.*g).
-/// Precondition: at most 60 digits.
+/// Requires: at most 60 digits.
 std::string rounded_text(double x, std::chars_format format, int digits);
 
 /// Hexadecimal floating-point form, exact: 0x1.8p+1.
@@ -104,7 +104,7 @@ inline Character first_character(std::string_view text) {
 /// `text` as one word for a POSIX shell, to be copied, quoted where needed; printable, whatever it holds.
 std::string shell_word(std::string_view text);
 
-/// Of each item its name, a member or name(item).
+/// The name of each item: a member or name(item).
 template <class Items>
 std::vector<std::string> names_of(const Items& items) {
     std::vector<std::string> names;

@@ -12,13 +12,13 @@
 
 namespace barycert::base {
 
-/// Exponent of ulp(x): ulp(x) = 2^ulp_exponent(x). Precondition: x finite.
+/// Exponent of ulp(x): ulp(x) = 2^ulp_exponent(x). Requires: x finite.
 constexpr int ulp_exponent(double x) {
     const int biased = static_cast<int>((std::bit_cast<std::uint64_t>(x) >> 52) & 0x7ff);
     return std::max(biased, 1) - 1075;
 }
 
-/// |computed - reference| in ulps of the reference. Preconditions: both finite, reference != 0.
+/// |computed - reference| in ulps of the reference. Requires: both finite, reference != 0.
 ///
 /// The subtraction is exact where the two lie within a factor of two (Sterbenz); elsewhere it is rounded once, so that
 /// the result is the exact error rounded to nearest. Scaling by a power of two loses nothing: two doubles that differ
@@ -40,12 +40,12 @@ inline double ulp_error_here(double computed, double reference) {
     return std::min(scaled, 0x1.fffffffffffffp+1023);
 }
 
-/// The next double above / below x. Preconditions: x finite.
+/// The next double above / below x. Requires: x finite.
 double next_up(double x);
 double next_down(double x);
 
 /// The double `n` places above x in the order of doubles, in which zero is one place; infinite beyond the largest.
-/// Preconditions: x finite, |n| < 2^62.
+/// Requires: x finite, |n| < 2^62.
 inline double places_above(double x, std::int64_t n) {
     const auto bits = std::bit_cast<std::int64_t>(x);
     const std::int64_t place = (bits >= 0 ? bits : std::numeric_limits<std::int64_t>::min() - bits) + n;

@@ -25,7 +25,7 @@ T dot(const Vector3<T>& x, const Vector3<T>& y) {
     return x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
 }
 
-/// Of length 1 up to rounding, whatever the length was. Precondition: finite, not zero.
+/// Returns v scaled to length 1 up to rounding, whatever its length. Requires: finite, not zero.
 inline Vector3<double> unit(const Vector3<double>& v) {
     const int shift = -std::ilogb(std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])}));
     Vector3<double> d{std::scalbn(v[0], shift), std::scalbn(v[1], shift), std::scalbn(v[2], shift)};

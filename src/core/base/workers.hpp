@@ -15,8 +15,8 @@ inline int threads_for(int threads) {
     return threads > 0 ? threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 }
 
-/// Calls work(i) for each i below `count` until one returns false or throws; true if none did. What is thrown is thrown
-/// on by this call. The calling thread is one of those that work.
+/// Calls work(i) for each i below `count` until one returns false or throws; true if none did. This call throws on what
+/// work() throws. The calling thread is one of those that work.
 template <class Work>
 bool share_work(int threads, std::size_t count, const Work& work) {
     std::atomic<std::size_t> next{0};

@@ -55,7 +55,8 @@ struct TwoDoubles {
     }
 };
 
-/// Of the number types of balls: |x| as a double that is not below it, and errors of operations over that.
+/// Traits of the number types of balls: size(x), |x| as a double that is not below it, and the errors of operations,
+/// relative to that.
 template <class T>
 struct NumberTraits;
 template <>

@@ -53,8 +53,9 @@ private:
 /// The basis of the Jacobian of a cell.
 const BernsteinBasis& jacobian_basis(const Reference& of);
 
-/// Of coefficients times positive numbers that are alike; of a N: sign_of(N) is -1, 0, 1 or nothing where rounding
-/// hides it. Nothing where such signs are needed.
+/// Finds the sign of a polynomial from its coefficients, each times a positive number that is the same for all.
+/// sign_of(N) is the sign of a coefficient: -1, 0, 1, or nothing where rounding hides it. The answer is nothing where
+/// it needs such a sign.
 template <class N, class SignOf>
 class SignSearch {
 public:
@@ -71,7 +72,7 @@ public:
 
 private:
     using Corners = std::array<std::array<double, BernsteinBasis::max_letters>, BernsteinBasis::max_letters>;
-    /// What bisections leave to do of a polynomial that touches zero.
+    /// Bounds the work on a polynomial that touches zero, where bisections never end.
     static constexpr int max_pieces = 4096;
 
     /// Whether the sign is proved to be that of the first corner in all of that part; else sets changes_ or hidden_, or

@@ -5,15 +5,15 @@
 
 namespace barycert::core::isoparametric {
 
-/// One component: the values of active nodes, below 1 in size, and the exponent that gives them back. What underflows
-/// is below 2^-1074, for which value_of() has room.
+/// One component: the values of active nodes, below 1 in size, and the exponent that gives them back. Values that
+/// underflow are below 2^-1074, for which value_of() has room.
 struct Component {
     std::array<double, max_nodes> values{};
     int exponent = 0;
     double off = 0;  ///< Evaluated::off
 };
 
-/// Of functions times `scale`.
+/// The sum of the component's values times the functions n, which are given times `scale`.
 template <class T>
 Ball<T> sum_of(std::size_t nodes, int scale, const std::array<Ball<T>, max_nodes>& n, const Component& c) {
     Ball<T> sum(0);

@@ -24,7 +24,7 @@ std::size_t axis_of(const CellBasis::Exponents& term) {
     return term[0] != 0 ? 0 : term[1] != 0 ? 1 : 2;
 }
 
-/// What is known around a place, in boxes of some shape.
+/// Proves what can be proved around a place, in boxes of some shape.
 class Neighbourhood {
 public:
     /// `target`: what is to be X less the point there; `way`: what it is yet to be moved by, at most.
@@ -70,7 +70,7 @@ private:
             }
         }
     }
-    /// Of shapes between a cube and a box as the way is long in each coordinate, the one that goes the farthest.
+    /// Chooses, among shapes between a cube and a box with the proportions of the way, the one that goes the farthest.
     void choose_shape(const Vector<double>& rest, const Vector<double>& way) {
         const double longest = std::max({way[0], way[1], way[2]});
         const bool moves = longest > 0x1p-900;  // else it is what balls add where nothing is left
@@ -189,7 +189,7 @@ std::optional<ContinuedPlace> continue_inverse(const Reference& of, const Invers
     const std::size_t d = of.dimension();
     const CellPolynomial map(of, beside);
     const Vector<Ball<double>> start = map.enclosed(from)[0];  // q - p
-    // What is left of the way, 1 - s: the target is that part of q - p.
+    // The target where the part `left`, 1 - s, of the way is still to go: that part of q - p.
     const auto target = [&](double left) {
         Vector<Ball<double>> at;
         for (std::size_t k = 0; k < 3; ++k) at[k] = k < d ? Ball<double>(left) * start[k] : Ball<double>(0);

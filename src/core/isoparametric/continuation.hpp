@@ -2,7 +2,7 @@
 ///
 /// The rule. Let x0 be a place of the reference cell, q = X(x0) and p a point. The places x(s), 0 <= s <= 1, with
 /// x(0) = x0 and X(x(s)) = q + s (p - q) are followed from s = 0 as long as the Jacobian does not vanish on them; as it
-/// does not, they are the only ones that depend on s continuously. What is continued to p is x(1). If the Jacobian
+/// does not, they are the only ones that depend on s continuously. The continuation to p is x(1). If the Jacobian
 /// vanishes before, there is none. That is the inverse along this way: other places may be taken to p too, but they are
 /// not reached so.
 ///

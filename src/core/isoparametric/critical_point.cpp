@@ -75,7 +75,7 @@ Series derivative(const Series& x, std::size_t variable) {
     return out;
 }
 
-/// Of d along an axis, from its coefficients at 0.
+/// The coefficients of d along an axis, moved from 0 to `to`.
 Series shifted(const PatchMap<Ball<double>>& map, std::size_t axis, const Params<double>& to) {
     constexpr std::array<std::array<int, 5>, 5> choose{
         {{1, 0, 0, 0, 0}, {1, 1, 0, 0, 0}, {1, 2, 1, 0, 0}, {1, 3, 3, 1, 0}, {1, 4, 6, 4, 1}}};

@@ -80,8 +80,7 @@ Evaluated evaluate(const Reference& of, const Places& places, const double* poin
 Evaluated evaluate_beyond(const Reference& of, const Places& places, const double* point,
                           const std::array<double, 3>& from, const double* values, std::size_t components,
                           double* out) {
-    // An affine map is one to one everywhere, and all is rational. Of no other is that told here: 0.1 has too many
-    // bits.
+    // An affine map is one to one everywhere, and all is rational. No other map passes here: 0.1 has too many bits.
     if (Inverse(of, places, point).exactly({0.1, 0.1, 0.1}))
         return evaluate_at(of, places, point, ~std::uint64_t{0}, values, components, out, true,
                            [](Inverse&) { return false; });

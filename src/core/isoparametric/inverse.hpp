@@ -30,7 +30,7 @@ struct Evaluated {
 
 /// sum of N_i(x) values[components * i + c] to out[c], rounded once, where x is taken to `point`. `active`: a bit for
 /// each node whose function is not zero there; others are left out. A value that is not finite makes its component NaN.
-/// Preconditions: the point is in the cell, on which the map is injective; coordinates are finite.
+/// Requires: the point is in the cell, on which the map is injective; coordinates are finite.
 Evaluated evaluate(const Reference& reference, const Places& places, const double* point, std::uint64_t active,
                    const double* values, std::size_t components, double* out);
 
@@ -51,7 +51,7 @@ enum class JacobianSign : std::int8_t {
 inline constexpr int max_bisections = 18;
 /// With no bisection, `positive` and `negative` are told where coefficients alone prove them.
 JacobianSign jacobian_sign(const Reference& reference, const Places& places, int bisections = max_bisections);
-/// Of simplices alone.
+/// The same, for simplices alone.
 JacobianSign simplex_jacobian_sign(const Reference& reference, const Places& places, int bisections = max_bisections);
 
 /// 1 or -1 where the Jacobian is proved to have that sign; else 0.
@@ -67,7 +67,7 @@ struct InSimplex {
     bool proved = false;  ///< else it may be otherwise: a zero is a number below 2^-240, or nothing was found
 };
 /// `beyond`: the sign of each corner's weight in the straight simplex. `flat`: a bit for each facet, opposite to a
-/// corner, that is straight: these signs decide where the coordinate is about zero. Preconditions: as of
+/// corner, that is straight: these signs decide where the coordinate is about zero. Requires: as of
 /// evaluate(), but the point may be anywhere.
 InSimplex locate_in_simplex(const Reference& reference, const Places& places, const double* point, unsigned flat,
                             const std::array<int, 4>& beyond);

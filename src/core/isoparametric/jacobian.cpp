@@ -19,8 +19,8 @@ struct Columns {
     std::array<std::vector<Edge>, 3> edges;
 };
 
-/// By element. Of a pyramid the Jacobian is divided by (1-t)^2: its columns are edges of the base, and those to the
-/// apex. r of a wedge's edges tells which of the three.
+/// Columns by element. The Jacobian of a pyramid is divided by (1-t)^2: its columns are edges of the base, and those to
+/// the apex. r of a wedge's edges tells which of the three.
 const Columns& columns_of(Element element) {
     using Edges = std::vector<Edge>;
     static const std::array<Columns, 4> all{{

@@ -8,8 +8,8 @@ namespace barycert::core::isoparametric {
 
 inline constexpr std::size_t max_lanes = 16;
 
-/// Of hexahedra, and pyramids with their apex four times; of wedges, with nodes 0 1 2 0 3 4 5 3; of tetrahedra with ten
-/// nodes as VTK numbers them.
+/// Elements whose values lanes compute. `hexahedron` is also for pyramids, with their apex four times; a wedge is given
+/// by nodes 0 1 2 0 3 4 5 3; a tetrahedron has ten nodes as VTK numbers them.
 enum class LaneElement : std::uint8_t { hexahedron, wedge, tetrahedron };
 
 constexpr std::size_t lane_nodes(LaneElement element) {
@@ -34,7 +34,7 @@ struct LanesProved {
     std::uint32_t values = 0;  ///< all values, if the point is in the cell
 };
 
-/// Sets values, each rounded once. Preconditions: as of evaluate(), but the point may be anywhere; values are finite.
+/// Sets values, each rounded once. Requires: as of evaluate(), but the point may be anywhere; values are finite.
 LanesProved evaluate_lanes(const LaneCases& cases);
 
 }  // namespace barycert::core::isoparametric

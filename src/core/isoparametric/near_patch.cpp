@@ -1,4 +1,4 @@
-// What is told of a point of a patch: whether it is inside, how near, where, and values there.
+// Answers about a point of a patch: whether it is inside, how near, where, and the values there.
 
 #include "core/isoparametric/near_patch.hpp"
 

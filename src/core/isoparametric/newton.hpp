@@ -109,7 +109,7 @@ bool eliminate(Rows& a, std::size_t n) {
     return true;
 }
 
-/// Of the first n rows and columns, about; the others are 0.
+/// The approximate inverse of the first n rows and columns; the other entries are 0.
 inline std::optional<Matrix> inverse_matrix(const Matrix& a, std::size_t n) {
     std::array<std::array<double, 6>, 3> rows{};
     for (std::size_t i = 0; i < n; ++i) {
@@ -232,9 +232,9 @@ public:
 
     /// In the plane the third coordinate is 0.
     const Vector<double>& found() const { return x_; }
-    /// Of the Jacobian there, about.
+    /// The approximate inverse of the Jacobian there.
     const Matrix& inverse() const { return inverse_; }
-    /// What coordinates were multiplied by, a power of two: they are below 1 from the point.
+    /// The power of two by which coordinates were multiplied: they are below 1 from the point.
     int shift() const { return shift_; }
 
     /// x enclosed, by as many steps as it takes to get below `goal`, if it can be.

@@ -19,7 +19,8 @@ Polynomial times_factor(const Polynomial& p, double c, double x, double y) {
     return out;
 }
 
-/// Of a curve or triangle: 24/(i! j! k!) times falling products of n times each barycentric coordinate.
+/// The shape function of a node of a curve or triangle: 24/(i! j! k!) times falling products of n times each
+/// barycentric coordinate.
 Polynomial shape_of_node(bool curve, int order, const std::array<int, 3>& index) {
     constexpr std::array<int, 5> factorial{1, 1, 2, 6, 24};
     Polynomial p{};

@@ -152,7 +152,7 @@ struct PatchPowers {
     N at(const PatchBasis::Term& t) const {
         return t.b == 0 ? of[0][t.a] : t.a == 0 ? of[1][t.b] : of[0][t.a] * of[1][t.b];
     }
-    /// Of the derivative by a variable.
+    /// A term's derivative by a variable.
     N by(const PatchBasis::Term& t, std::size_t variable) const {
         const std::uint8_t own = variable == 0 ? t.a : t.b, rest = variable == 0 ? t.b : t.a;
         if (own == 0) return N(0);

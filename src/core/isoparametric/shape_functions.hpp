@@ -34,7 +34,7 @@ struct Reference {
     bool is_simplex() const { return element >= Element::triangle; }
 };
 
-/// Of VTK's linear cells, pixels and voxels included (VtkCell); nullptr of others.
+/// Returns the reference cell of VTK's linear types 8, 9, and 11 to 14; nullptr for others.
 const Reference* linear_reference(std::uint8_t type);
 /// Simplices with so many nodes, of order 2 to 4, numbered as VTK's Lagrange cells; nullptr of other numbers.
 const Reference* simplex_reference(int dimension, std::size_t nodes);

@@ -148,7 +148,7 @@ Result<std::string> in_memory(png_image& image, std::size_t width, std::size_t h
 Result<PngPixels> read_png_pixels(const std::string& path, std::uint64_t max_pixels) {
     const Result<base::InputFile> input = base::InputFile::open(path);
     if (!input) return input.error();
-    // What is no PNG file is not read whole, nor what no picture of so many pixels takes.
+    // Reads only the first bytes of a file that is no PNG, and refuses one larger than any picture of so many pixels.
     std::array<char, 8> start{};
     const Result<std::size_t> got = input->read_at(0, start, path);
     if (!got) return got.error();

@@ -71,7 +71,8 @@ private:
         return static_cast<std::size_t>(j - begin_) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(i);
     }
 
-    /// What is linear in the window at each vertex: the depth, the scale if there is one, numbers times the scale.
+    /// The numbers that are linear in the window, at each vertex: the depth, the scale if there is one, the attributes
+    /// times the scale.
     std::vector<double> linear_values() const {
         const bool affine = layers_.interpolation == Interpolation::affine;
         const bool projected = layers_.interpolation == Interpolation::projected_z;
@@ -241,7 +242,7 @@ private:
         const auto& v = part_->window;
         const double x0 = v[0] - x, x1 = v[2] - x, x2 = v[4] - x, y0 = v[1] - y, y1 = v[3] - y, y2 = v[5] - y;
         const double a = x1 * y2 - x2 * y1, b = x2 * y0 - x0 * y2, c = x0 * y1 - x1 * y0, sum = a + b + c;
-        // Of a triangle without an area in double: its first vertex.
+        // Takes the first vertex of a triangle without an area in double.
         const std::array<double, 3> weights =
             sum == 0 ? std::array{1.0, 0.0, 0.0} : std::array{a / sum, b / sum, c / sum};
         const std::size_t linear = values_.size() / 3, n = layers_.numbers;

@@ -62,7 +62,7 @@ Result<Matrix4> look_at(const Vector3& eye, const Vector3& centre, const Vector3
         return no_camera("a camera that looks nowhere", "eye and centre that differ, finite",
                          text_of(eye) + " and " + text_of(centre));
     const auto upwards = direction(up);
-    // Of unit vectors: a product below 2^-50 is mostly rounding error.
+    // Both are unit vectors, so a product below 2^-50 is mostly rounding error.
     const Vector3 across = upwards ? cross(*sight, *upwards) : Vector3{};
     if (!upwards || dot(across, across) < 0x1p-100)
         return no_camera("a camera that knows no up", "an upwards direction off the direction of sight", text_of(up));
@@ -112,7 +112,7 @@ Result<Matrix4> rotation(const Vector3& axis, double degrees) {
         return no_camera("a rotation", "an axis that is not zero and an angle, finite",
                          text_of(axis) + " by " + base::shortest(degrees));
     const double angle = std::fmod(degrees, 360) * (std::numbers::pi / 180), c = std::cos(angle), s = std::sin(angle);
-    // Of the axis the outer product times 1 - c, and the cross product times s.
+    // The outer product of the axis times 1 - c, and its cross product times s.
     const std::array<double, 9> turned{
         c, -(*a)[2] * s, (*a)[1] * s, (*a)[2] * s, c, -(*a)[0] * s, -(*a)[1] * s, (*a)[0] * s, c};
     Matrix4 m;

@@ -76,7 +76,7 @@ Status check_segment(int dimension, std::span<const double> a, std::span<const d
         i <= k ? a[i] : b[k], "leave the segment out");
 }
 
-/// What is left of a segment, exactly: each end is as given, or where a form is zero.
+/// Clips a segment exactly: each end stays as given, or lies where a form is zero.
 struct SegmentClipper {
     using End = std::optional<ExactPoint>;
 
@@ -136,7 +136,7 @@ Error bad_bound(const std::string& what, const std::string& expected, double fou
 
 constexpr int bounds = 6;  ///< x, y, z <= w, then -w <= x, y, z
 
-/// What bound b holds against w: x, y, z or -x, -y, -z.
+/// The coordinate that bound b compares with w: x, y, z or -x, -y, -z.
 double beside(const double* vertex, int b) {
     return b < 3 ? vertex[b] : -vertex[b - 3];
 }

@@ -14,8 +14,8 @@
 /// u (1 + 11 u) X and u (X + 0.5) (1 + 13 u). Together less than 13 u X + u. Underflow: dy >= 2^-54, for y is at least
 /// 0.5 and both y - a.y and dy would else be zero; dx is exact where it is subnormal; the quotient may underflow by
 /// 2^-1075 and is then multiplied by at most 2^102: nothing beside u. The bound 2^-49 X + 2^-52 = 16 u X + 2 u has
-/// room for its own rounding. If x - 0.5 is further than that from every integer, its ceiling is c. What is
-/// undecided, and coordinates above 2^100, are decided by orient2d.
+/// room for its own rounding. If x - 0.5 is further than that from every integer, its ceiling is c. orient2d decides
+/// the rest, and coordinates above 2^100.
 #pragma once
 
 #include <algorithm>
@@ -50,7 +50,7 @@ struct Edge {
 /// The crossing where the filter is undecided, by exact signs. `s`: edge.position(j + 0.5).
 std::int32_t exact_crossing(const Edge& edge, std::int32_t j, std::int32_t width, double s);
 
-/// The crossing with row j, within [0, width]. Precondition: lower.y < j + 0.5 <= upper.y.
+/// The crossing with row j, within [0, width]. Requires: lower.y < j + 0.5 <= upper.y.
 inline std::int32_t crossing(const Edge& edge, std::int32_t j, std::int32_t width) {
     const double s = edge.position(j + 0.5);
     const double up = std::ceil(s);

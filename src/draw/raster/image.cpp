@@ -22,7 +22,7 @@ Status check_sides(std::int64_t width, std::int64_t height) {
     return Done{};
 }
 
-/// The greatest integer that is not above u * size, the product taken without rounding. Preconditions: |u| < 2,
+/// The greatest integer that is not above u * size, the product taken without rounding. Requires: |u| < 2,
 /// 1 <= size <= 2^26, so that all is far from overflow.
 ///
 /// A product that is rounded to a number that is no integer lies between the same integers as the exact one. One that
@@ -44,7 +44,7 @@ double reduced(double u, Wrap wrap) {
     return std::abs(u) < period ? u : std::fmod(u, period);
 }
 
-/// The texel that stands at place i. Precondition: -3 * size <= i <= 3 * size.
+/// The texel that stands at place i. Requires: -3 * size <= i <= 3 * size.
 std::int64_t wrapped(std::int64_t i, std::int64_t size, Wrap wrap) {
     if (wrap == Wrap::clamp) return std::clamp<std::int64_t>(i, 0, size - 1);
     const std::int64_t period = wrap == Wrap::repeat ? size : 2 * size;

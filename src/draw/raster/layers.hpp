@@ -41,7 +41,7 @@ struct Layers {
 /// The matrix times each position: x, y, z, w. Exact and rounded once, if that is asked for.
 std::vector<double> in_clip_space(std::span<const double> positions, const Matrix4& to_clip, Rounding rounding);
 
-/// Counts are of samples, in place of pixels. Precondition: sizes fit, and are valid.
+/// Counts are of samples, in place of pixels. Requires: sizes fit, and are valid.
 Image draw(const Layers& layers, RenderCounts& counts);
 
 }  // namespace barycert::raster

@@ -16,7 +16,7 @@ struct Primitive {
     bool clipped = false, line = false;
 };
 
-/// What a range of triangles has become.
+/// The parts that a range of triangles has become.
 struct Parts {
     std::vector<Primitive> all;
     std::vector<double> cut;  ///< numbers of new vertices and those beside them

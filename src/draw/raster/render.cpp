@@ -87,7 +87,7 @@ Rgba colour_of(const Scene& s, const double* attributes) {
     return result;
 }
 
-/// Of each vertex its colour if there is one, then u and v likewise.
+/// Appends the vertex's colour if there is one, then likewise its u and v.
 void append_numbers(const Scene& s, std::size_t vertex, double* to) {
     if (!s.colours.empty()) to = std::copy_n(s.colours.data() + 3 * vertex, 3, to);
     if (!s.texture_coordinates.empty()) std::copy_n(s.texture_coordinates.data() + 2 * vertex, 2, to);

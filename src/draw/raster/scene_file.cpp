@@ -19,7 +19,7 @@ using Json = nlohmann::json;
 
 // The members of a scene file, each read with its place: a JSON pointer such as /camera/eye/1 (RFC 6901).
 
-/// What stands there, in a few words.
+/// The value there, in a few words.
 std::string brief(const Json& value) {
     if (value.is_object()) return "an object";
     if (value.is_array()) return "an array of " + std::to_string(value.size());
@@ -50,7 +50,7 @@ public:
     }
     SceneValue entry(std::size_t i) const { return {value_.at(i), place_ + '/' + std::to_string(i), path_}; }
 
-    /// Of an array: the number of entries.
+    /// The number of entries of an array.
     std::size_t size() const {
         if (!value_.is_array()) fail("an array");
         return value_.size();
@@ -122,7 +122,7 @@ private:
 
 // The scene.
 
-/// What a scene file may have at most: read, it takes some ten times as much memory.
+/// The most that a scene file may have: read, it takes some ten times as much memory.
 constexpr std::uint64_t longest_file = std::uint64_t{64} << 20;
 
 Result<std::string> text_of_file(const std::string& path) {

@@ -76,7 +76,7 @@ Result<std::size_t> draw_textured(Image& image, const Texture& texture, std::spa
                     add(static_cast<std::size_t>(b), static_cast<std::uint32_t>(k));
             }
         });
-        // Of work: a row takes a fourth of the time of a point.
+        // Measures the work in points: a row takes a fourth of the time of a point.
         base::in_arena(threads, rows_of_triangles / 4, [&] {
             base::parallel_for(bands, [&](std::size_t b) {
                 const std::int32_t row = static_cast<std::int32_t>(b) * rows;

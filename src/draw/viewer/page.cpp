@@ -27,7 +27,7 @@ std::string packed(std::string_view bytes) {
     return base64(out);
 }
 
-/// What viewer.js unpacks: a header, and arrays that it names by their numbers.
+/// The data that viewer.js unpacks: a header, and arrays that it names by their numbers.
 class PageData {
 public:
     Json header;
@@ -121,7 +121,7 @@ void add_fields(const PageScene& scene, const mesh::Submesh& kept, PageData& dat
     data.header["fields"] = std::move(all);
 }
 
-/// What runs the figure; behind it.
+/// The script that runs the figure, and stands behind it.
 std::string viewer_script() {
     const std::string code = std::string(&barycert_three[0], &barycert_three_end[0]) + "\n" +
                              std::string(&barycert_viewer[0], &barycert_viewer_end[0]);

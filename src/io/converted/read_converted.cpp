@@ -127,13 +127,14 @@ Error not_read(const Json& answer, const std::string& messages, const std::strin
                        : "install the Python module " + module + " beside meshio");
 }
 
-/// What the script itself says of the file.
+/// Returns the script's own error about the file.
 Error refused(const Json& by, const std::string& path) {
     const auto text = [&](const char* member) { return by.at(member).get<std::string>(); };
     return file_error(path, text("what"), text("expected"), text("found"), text("remedy"));
 }
 
-/// That the file is complete: what meshio counted, against what was read. Of polygons in space triangles come back.
+/// Checks that the file is complete: compares what meshio counted with what was read. Polygons in space come back as
+/// triangles, and are not compared.
 void check_complete(const Json& answer, const Mesh& mesh, const InSpace& space, const std::string& path) {
     const auto need = [&](const std::string& what, std::size_t counted, std::size_t read) {
         if (counted != read)
@@ -178,7 +179,7 @@ void tell_messages(const std::string& messages, const std::string& path, Notes& 
 
 Mesh checked(const Json& answer, const MeshioFile& file, const std::string& path, const std::string& format,
              InSpace* space) {
-    // What meshio has opened beside the file is read by this run, too: what is opened is recorded.
+    // Opens the files that meshio opened beside this one: this run reads them, too, and what it opens is recorded.
     for (const Json& beside : answer.value("files", Json::array()))
         static_cast<void>(base::InputFile::open(beside.get<std::string>()));
     if (answer.contains("refused")) throw Exception(refused(answer["refused"], path));

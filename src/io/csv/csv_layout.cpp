@@ -291,7 +291,7 @@ void parse_csv(std::string_view text, const CsvLayout& layout, int dimension, Cs
         }
         for (std::size_t axis = 0; axis < size; ++axis) piece.points.push_back(point[axis]);
     }
-    // Of a bad line some columns may have their value.
+    // A bad line may have set the values of some columns.
     for (Column& column : piece.carried)
         std::visit([&](auto& values) { values.resize(piece.points.size() / size); }, column.values);
 }

@@ -1,4 +1,4 @@
-/// What the first line of a CSV file tells about the others, and rows read so. Errors are thrown as Exceptions.
+/// Layout of a CSV file, which its first line decides, and rows read by it. Errors are thrown as Exceptions.
 #pragma once
 
 #include "barycert/gmsh_files.hpp"
@@ -122,7 +122,7 @@ struct CsvLine {
 };
 CsvLine cut_first_line(std::string_view line, const LinePlace& place);
 
-/// Begins as numbers do, or is a word for one. What is meant as a number must not make its line a header.
+/// Begins as numbers do, or is a word for one. A field that is meant as a number must not make its line a header.
 bool looks_numeric(std::string_view field);
 
 /// From the first line that holds fields. Carried columns are texts.
@@ -136,7 +136,7 @@ inline std::string separator_name(char separator) {
 void check_cut(const FieldCutter& cutter, std::string_view line, std::size_t count, const CsvLayout& layout,
                const LinePlace& place);
 
-/// What became of whole lines; the last of the file may lack its end.
+/// Results of whole lines; the last line of the file may lack its end.
 struct CsvPiece {
     std::vector<double> points;   ///< of the lines before the bad one
     std::vector<Column> carried;  ///< likewise

@@ -64,7 +64,7 @@ private:
         return taken;
     }
 
-    /// Parses the next pieces; false at the end of the file. The error of a line is kept. Precondition: all are given.
+    /// Parses the next pieces; false at the end of the file. The error of a line is kept. Requires: all are given.
     bool parse_more() {
         piece_ = piece_count_ = given_ = 0;
         std::string_view text;

@@ -69,7 +69,7 @@ std::string counted_types(const TypeCounts& counts) {
     });
 }
 
-/// Those of the highest dimension.
+/// Keeps the types of the highest dimension. Refuses a file that has none above 1.
 TypeCounts choose(const MshFile& file, TypeCounts counts) {
     int dimension = 0;
     for (const auto& [type, count] : counts) dimension = std::max(dimension, type->dimension());
@@ -91,7 +91,7 @@ bool take_node(auto& row, const TagIndex& nodes, Mesh::Index& node) {
            row.refuse({"an unknown node", "the tag of a node of $Nodes", tag, "check that the file is complete"});
 }
 
-/// What stands before the nodes of an element.
+/// Numbers before the nodes of an element.
 struct Head {
     std::int64_t tag = 0;
     std::array<std::int64_t, 2> groups{};  ///< physical, geometrical

@@ -39,10 +39,10 @@ public:
 
     std::size_t before(const char* at) const;
 
-    /// The beginning of the word before which `number` others begin. Precondition: there is one.
+    /// The beginning of the word before which `number` others begin. Requires: there is one.
     const char* find(std::size_t number) const;
 
-    /// Appends the run in parts of about a piece. Precondition: its words are there.
+    /// Appends the run in parts of about a piece. Requires: its words are there.
     void cut(const Run& run, std::vector<RunPart>& parts) const;
 
 private:
@@ -60,7 +60,7 @@ struct MshSection {
     std::string_view body;
 };
 
-/// Of which a file has one at most.
+/// Sections that a file has once at most.
 inline constexpr std::array<std::string_view, 7> once_sections{
     "MeshFormat", "PhysicalNames", "Entities", "PartitionedEntities", "Nodes", "ParametricNodes", "Elements"};
 
@@ -228,7 +228,8 @@ void parse_runs(const MshFile& file, std::string_view section, std::span<const R
     file.refuse(file.end(), "a row is refused once and not again");
 }
 
-/// A section from its beginning: headers number by number, rows passed over. What is not there is refused.
+/// Walks through a section from its beginning: reads headers number by number, passes rows over. Refuses what is not
+/// there.
 class Walk {
 public:
     /// `text`: numbers are text, as those of some headers in binary files. `bad`: what errors call a word that is none.
@@ -261,7 +262,7 @@ public:
     void move_to(const char* at) { at_ = at; }
 
 private:
-    /// What take(row, number) takes, where a row begins here.
+    /// Reads what take(row, number) takes, where a row begins here.
     template <class Number, class Take>
     Number step(const char* name, const Take& take);
 

@@ -1,4 +1,4 @@
-/// What a .msh file of any version holds, in one form: nodes, elements in blocks, cells, groups, views.
+/// Contents of a .msh file of any version, in one form: nodes, elements in blocks, cells, groups, views.
 #pragma once
 
 #include "io/gmsh/msh_file.hpp"
@@ -27,7 +27,7 @@ using TypeCounts = std::map<const ElementType*, std::size_t>;
 class TagIndex {
 public:
     TagIndex() = default;
-    /// Tags in any order, with gaps of any size. Precondition: fewer than 2^31.
+    /// Tags in any order, with gaps of any size. Requires: fewer than 2^31.
     explicit TagIndex(std::span<const std::int64_t> tags) {
         if (tags.empty()) return;
         const auto [low, high] = std::minmax_element(tags.begin(), tags.end());
@@ -117,7 +117,8 @@ struct MshCells {
     std::size_t repeated = 0;    ///< elements of further groups; 2.x only
 };
 
-/// Those of the highest dimension: shapes, not cut yet, unless all are simplices of one type. Error: an unknown node.
+/// Returns the cells of the highest dimension: shapes, not cut yet, unless all are simplices of one type. Error: an
+/// unknown node.
 MshCells read_msh_cells(const MshFile& file, const MshElements& elements, const MshNodes& nodes);
 
 /// Tells which elements are not among the cells, and which nodes are of no cell. `partitioned`: entities are.

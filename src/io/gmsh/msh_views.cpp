@@ -1,5 +1,6 @@
-// Of a section: strings count, a line each: the name, perhaps an interpolation scheme. Reals count, reals: the time.
-// Integers count, integers: step, components, rows, perhaps a partition. All this is text. Rows: tag value...
+// A section has four parts. Strings: their count, then one a line: the name, perhaps an interpolation scheme. Reals:
+// their count, then these: the time. Integers: their count, then these: step, components, rows, perhaps a partition.
+// All this is text. Rows: tag value...
 #include <set>
 
 #include "io/gmsh/msh_parts.hpp"

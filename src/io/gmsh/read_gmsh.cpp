@@ -208,7 +208,7 @@ Mesh read_whole(const MshFile& file, const GmshReadOptions& options, InSpace* sp
     Mesh& mesh = cells.mesh;
     mesh.points = std::move(nodes.points);
     if (!mesh.mid_nodes.empty()) {
-        // Of a triangle both orders are the same.
+        // Both orders are the same in a triangle.
         mesh.mid_edge_order = mesh.dimension == 3 ? MidEdgeOrder::gmsh : MidEdgeOrder::vtk;
         mesh::normalise_mid_nodes(mesh);
     }

@@ -44,7 +44,7 @@ const std::vector<T>* find_label(const Mesh& mesh, const char* name) {
     return found == mesh.cell_labels.end() ? nullptr : std::get_if<std::vector<T>>(&found->values);
 }
 
-/// Those of the file the mesh came from, where they can be tags.
+/// The tags of the file the mesh came from, where they can be tags; else numbers.
 std::vector<std::int64_t> element_tags(const Mesh& mesh) {
     if (const auto* const label = find_label<std::int64_t>(mesh, "gmsh:tag"); label != nullptr) {
         std::vector<std::int64_t> sorted = *label;

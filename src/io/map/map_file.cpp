@@ -14,7 +14,7 @@ namespace barycert {
 
 namespace {
 
-/// Of a mesh or a surface.
+/// The fingerprint of a mesh or a surface.
 std::uint64_t fingerprint(const auto& mesh) {
     std::uint64_t h = sample::map_step(0, static_cast<std::uint64_t>(mesh.dimension));
     h = sample::map_step(h, mesh.points.size());
@@ -37,7 +37,7 @@ sample::MapHeader header_of(const auto& mesh, bool all) {
             .fingerprint = fingerprint(mesh)};
 }
 
-/// Of a mesh some of whose cells are not taken as straight simplices also their nodes.
+/// The header for a mesh some of whose cells are not taken as straight simplices: its fingerprint has their nodes, too.
 sample::MapHeader header_of(const Mesh& mesh, bool all, const BuildOptions& located) {
     sample::MapHeader header = header_of(mesh, all);
     const auto has_products = [](std::uint8_t type) { return core::isoparametric::linear_reference(type) != nullptr; };

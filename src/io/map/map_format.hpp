@@ -27,7 +27,7 @@ inline std::uint64_t map_word(const char* at) {
     return word;
 }
 
-/// Precondition: the size is a multiple of 8.
+/// Requires: the size is a multiple of 8.
 inline std::uint64_t map_checksum(std::string_view bytes, std::uint64_t h) {
     for (std::size_t i = 0; i < bytes.size(); i += 8) h = map_step(h, map_word(bytes.data() + i));
     return h;
@@ -70,7 +70,7 @@ inline void append_map_rows(const TableView& from, int dimension, std::size_t fi
     append(from.features, 1, to.features);
 }
 
-/// What a row that no map can hold should have had, or nullptr if it can: one text for writer and reader.
+/// Says what a row that no map can hold should have had; nullptr if a map can hold it. One text for writer and reader.
 inline const char* map_row_fault(const double* point, int dimension, Mesh::Index cell, unsigned feature,
                                  std::uint64_t cell_count) {
     for (int axis = 0; axis < dimension; ++axis) {

@@ -60,7 +60,8 @@ struct KeywordList {
     std::string_view words;
 };
 
-// Codes of libMeshb's documentation. What is not named here is left out in any case. Some programs write Hexaedra.
+// Codes of libMeshb's documentation. Keywords that are not named here are left out in any case. Some programs write
+// Hexaedra.
 inline constexpr std::array<KeywordList, 12> keyword_lists{
     {{vertices, 0, 0, "4 Vertices"},
      {cells, 1, vtk_line, "5 Edges 2 25 EdgesP2 3 92 EdgesP3 4 93 EdgesP4 5"},

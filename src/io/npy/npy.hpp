@@ -20,7 +20,8 @@ struct NpyType {
     bool is_text() const { return kind == 'S' || kind == 'U'; }
 };
 
-/// Of a simple type such as <f8. Nothing where the size of an item is not known, or an item is a Python object.
+/// Returns the type that a simple code such as <f8 means. Nothing where the size of an item is not known, or an item is
+/// a Python object.
 std::optional<NpyType> npy_type(std::string_view descr);
 
 /// False if it is no code of Unicode, or a surrogate.

@@ -17,7 +17,7 @@ double half(std::uint16_t bits) {
     return (bits & 0x8000U) != 0 ? -x : x;
 }
 
-/// Of types whose kind and size are known: neither halves nor booleans.
+/// Requires: a type whose kind and size are known; neither halves nor booleans.
 NumberType number_type(const NpyType& type) {
     if (type.kind == 'f') return type.is_double() ? NumberType::float64 : NumberType::float32;
     const int first = static_cast<int>(type.kind == 'i' ? NumberType::int8 : NumberType::uint8);
@@ -41,7 +41,7 @@ std::size_t npy_numbers(const char* at, std::size_t step, std::size_t count, con
                             [&]<class From>() { return all.template operator()<From>([](From x) { return x; }); });
 }
 
-/// The text at `at` without zeros at its end, characters in UTF-8; nothing if one is none. Precondition: is_text().
+/// The text at `at` without zeros at its end, characters in UTF-8; nothing if one is none. Requires: is_text().
 std::optional<std::string> npy_text(const char* at, const NpyType& type) {
     if (type.kind == 'S') {
         std::size_t size = type.size;

@@ -48,7 +48,7 @@ bool holds(const NpyType& type, std::string_view text) {
     return count >= 0 && static_cast<std::size_t>(count) <= type.size / 4;
 }
 
-/// Writes the text, with zeros behind it; the place after it. Precondition: it fits.
+/// Writes the text, with zeros behind it; the place after it. Requires: it fits.
 char* put(char* at, const NpyType& type, std::string_view text) {
     char* const end = at + type.size;
     if (type.kind == 'S') at = std::copy(text.begin(), text.end(), at);

@@ -44,7 +44,7 @@ public:
     std::optional<std::uint64_t> count() const override { return rows_; }
 
 private:
-    /// Of an array without names, all of whose columns are coordinates.
+    /// Refuses an array without names, all of whose columns are coordinates, if its shape is another one.
     void check_shape() const {
         const std::vector<std::uint64_t>& shape = file_.header().shape;
         if (shape.size() == 2 && shape[1] == dimension_) return;

@@ -51,8 +51,8 @@ void check_corners(PlcText& in, Polygons& all) {
 }
 
 /// Shape of the file: OFF, the counts of points, polygons and edges, then a line for each point and each polygon.
-/// A polygon's corners may go on over more lines: their count says how many are taken. What then stands on the last of
-/// these lines is a colour.
+/// A polygon's corners may go on over more lines: their count says how many are taken. Numbers behind them on the last
+/// of these lines are a colour.
 Polygons read_off(PlcText& in) {
     Polygons all;
     in.need_line("OFF");

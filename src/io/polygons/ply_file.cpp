@@ -26,7 +26,7 @@ struct Header {
 };
 
 NumberType take_type(PlcText& in) {
-    // Of each NumberType; PLY has none of 64 bits but double.
+    // Names of each NumberType; PLY has none of 64 bits but double.
     constexpr std::array<std::string_view, 11> types{
         "", "char int8", "uchar uint8",   "short int16",   "ushort uint16", "int int32", "uint uint32",
         "", "",          "float float32", "double float64"};

@@ -5,7 +5,8 @@
 
 namespace barycert::io {
 
-/// What parts words: in TetGen's files commas do, too. Elsewhere a comma is part of a word, and no number has one.
+/// Characters that separate words: in TetGen's files commas do, too. Elsewhere a comma is part of a word, and no number
+/// has one.
 enum class Separators : std::uint8_t {
     blanks,
     blanks_and_commas,
@@ -71,7 +72,7 @@ private:
     bool ends_with_number_ = false;
 };
 
-/// What to do about a word that is no number: "" where nothing is known.
+/// Returns the remedy for a word that is no number: "" where nothing is known.
 std::string remedy_for_number(std::string_view word);
 
 /// The whole file as text. `check` throws what is wrong with its beginning, whole lines of it.

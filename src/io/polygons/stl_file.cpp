@@ -61,7 +61,7 @@ std::size_t binary_size(std::string_view bytes) {
     return header_bytes + record_bytes * count;
 }
 
-/// Of a file of at least binary_size() bytes; what follows is left out.
+/// Reads a file of at least binary_size() bytes; leaves out what follows.
 Polygons read_binary(PlcText& in) {
     const std::string_view bytes = in.rest();
     const std::size_t count = (binary_size(bytes) - header_bytes) / record_bytes;
@@ -88,7 +88,7 @@ Polygons read_binary(PlcText& in) {
 }
 
 /// A line is: solid NAME; facet normal X Y Z; outer loop; vertex X Y Z, thrice; endloop; endfacet; endsolid NAME. All
-/// in any case, and with a blank in `end loop` and the like. Of a facet the normal may be missing: corners tell it.
+/// in any case, and with a blank in `end loop` and the like. A facet's normal may be missing: its corners tell it.
 class StlText {
 public:
     explicit StlText(PlcText& in) : in_(in) {}

@@ -12,7 +12,7 @@ bool is_plc_file(const std::string& path);
 
 Surface surface_of(Mesh mesh, InSpace space);
 
-/// What cannot be cut is left out, and noted.
+/// Polygons that cannot be cut are left out, and noted.
 Surface surface_of(Polygons polygons, const std::string& path);
 Surface surface_of(const Plc& plc, const std::string& path);
 

@@ -101,7 +101,8 @@ struct Complaint {
     std::string expected, remedy;
 };
 
-/// Of a field that scan_real() refuses. `finite`: the remedy for nan and inf; `separators`: for what is nothing known.
+/// Returns the complaint about a field that scan_real() refuses. `finite`: the remedy for nan and inf; `separators`:
+/// the remedy where nothing is known.
 Complaint about_real(std::string_view field, const std::string& finite, const std::string& separators);
 
 /// A place in the text, moved by each success and left near the fault by a failure.
@@ -180,7 +181,7 @@ struct FewBytes {
 
 #ifdef __SSE2__
 
-/// Number of the lowest set bit. Precondition: there is one (std::countr_zero would spend time on asking).
+/// Number of the lowest set bit. Requires: there is one (std::countr_zero would spend time on asking).
 inline int lowest_bit(std::uint64_t mask) {
     return __builtin_ctzll(mask);
 }
@@ -233,7 +234,7 @@ const char* scan_plain_row(const char* at, std::array<std::uint32_t, Count>& val
 }
 
 /// The place after the LF of a row of that many numbers from 0 on, separated by spaces and ended within 64 bytes, with
-/// these bytes behind the first of them; nullptr for any other row. Precondition: 72 bytes can be read.
+/// these bytes behind the first of them; nullptr for any other row. Requires: 72 bytes can be read.
 inline const char* plain_row_end(const char* at, std::size_t count, const FewBytes& second) {
     const ByteMasks masks(at);
     if (masks.feeds == 0) return nullptr;

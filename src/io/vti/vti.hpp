@@ -22,7 +22,7 @@ struct VtiGrid {
 /// pipe they must stand in their order. Data that are not raw are kept in nameless files up to the commit.
 class VtiWriter {
 public:
-    /// Precondition: counts, origin and spacing are as said. Error: what check_arrays refuses; more than 2^63 bytes.
+    /// Requires: counts, origin and spacing are as said. Error: what check_arrays refuses; more than 2^63 bytes.
     static Result<std::unique_ptr<VtiWriter>> open(const std::string& path, const VtiGrid& grid,
                                                    const std::vector<ArrayFormat>& arrays, VtkData data = VtkData::raw);
 

@@ -67,7 +67,7 @@ public:
         return found;
     }
     std::string take_name() { return decoded(next_word(rest_)); }
-    /// What is left of the line, which is then behind.
+    /// Takes the rest of the line, and its end.
     std::string_view rest_of_line() {
         std::string_view text = rest_.substr(0, rest_.find('\n'));
         rest_.remove_prefix(std::min(text.size() + 1, rest_.size()));
@@ -203,7 +203,7 @@ private:
         has_points_ = along_axes_;
     }
 
-    /// What places the points of a structured grid; false if the keyword is none of it.
+    /// Reads a line that places the points of a structured grid; false if the keyword is none of those.
     bool read_structure(const std::string& keyword) {
         StructuredGrid& grid = grid_of_axes_;
         if (keyword == "DIMENSIONS") {

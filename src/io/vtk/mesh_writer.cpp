@@ -78,7 +78,7 @@ std::string with_ends(const std::vector<std::string>& texts) {
     return all;
 }
 
-/// What is wrong with the mesh but for the names of its fields, in one clause; empty if nothing is.
+/// Says, in one clause, what is wrong with the mesh, names of fields aside; empty if nothing is.
 std::string fault_of_mesh(const Mesh& mesh) {
     if (const char* const found = mesh::inconsistency(mesh, mesh::FieldValues::any); found != nullptr) return found;
     for (const Column& labels : mesh.cell_labels) {

@@ -9,7 +9,7 @@
 namespace barycert::io {
 namespace {
 
-// What depends on the type in the file and on the one in memory is compiled for each pair: a loop, and no more.
+// Code that depends on the type in the file and on the one in memory is compiled for each pair: a loop, and no more.
 
 /// One run of numbers, on this thread; the first that is not exact, or `count`.
 template <class From, class To>

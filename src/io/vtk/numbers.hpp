@@ -51,7 +51,7 @@ std::size_t number_bytes(NumberType type);
 /// Bytes that `count` numbers take; nothing if they do not fit in 64 bits.
 std::optional<std::uint64_t> byte_count(NumberType type, std::uint64_t count);
 
-/// What a number could not be.
+/// Fault of a number.
 struct NumberFault {
     enum class Kind : std::uint8_t {
         none,

@@ -214,7 +214,7 @@ std::optional<std::string> xml_attribute(std::string_view name) {
     while (!name.empty()) {
         const base::Character c = base::first_character(name);
         if (c.size == 0 || !is_xml(c.code)) return std::nullopt;
-        // What would end the value, and white space, which a reader would turn into spaces.
+        // Escapes characters that would end the value, and white space, which a reader would turn into spaces.
         if (std::string_view("<>&\"'\t\n\r").find(name[0]) != std::string_view::npos) {
             text += "&#" + std::to_string(static_cast<std::uint32_t>(c.code)) + ";";
         } else {

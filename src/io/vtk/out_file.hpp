@@ -69,7 +69,7 @@ inline std::vector<OutArray> arrays_of(const std::vector<Field>& fields) {
     return arrays;
 }
 
-/// What is done to a part of an array on any thread: its numbers `first` to `last` - 1 are `bytes`.
+/// A change to a part of an array, on any thread: its numbers `first` to `last` - 1 are `bytes`.
 using Transform = std::function<void(std::size_t first, std::size_t last, std::string& bytes)>;
 
 /// Writes the array in parts of `part` numbers in their order; they are made, and transformed where `transform` is not
@@ -86,7 +86,7 @@ std::optional<std::string> xml_attribute(std::string_view name);
 
 enum class Names : bool { legacy, xml };
 
-/// What is wrong with the names of fields, in one clause, or empty. VTK keeps but one array of a name.
+/// Says, in one clause, what is wrong with the names of fields; empty if nothing is. VTK keeps but one array of a name.
 std::string fault_of_names(const std::vector<OutArray>& arrays, Names names);
 
 Error cannot_write(const std::string& what, const std::string& fault, const std::string& path);
@@ -112,7 +112,7 @@ struct OutFile {
 /// Names must pass check_arrays. Compressed blocks are made on all threads, in memory for some; on a pipe twice.
 Status write_xml(const OutFile& file, const std::string& path, VtkData data);
 
-// What stands around raw arrays, for those that write them themselves.
+// Text around raw arrays, for those that write these themselves.
 
 /// All before the arrays, which stand one after the other in the order of their elements.
 std::string raw_head(const OutFile& file);

@@ -86,7 +86,7 @@ void add_new(std::vector<std::string>& names, const std::vector<std::string>& mo
                          [&](const std::string& name) { return std::ranges::count(names, name) == 0; });
 }
 
-/// What holds of numbers of either type.
+/// A type that holds numbers of both types.
 NumberType common_type(NumberType a, NumberType b) {
     if (a == b) return a;
     for (const NumberType type : {NumberType::float32, NumberType::float64}) {
@@ -99,7 +99,7 @@ NumberType common_type(NumberType a, NumberType b) {
 bool agree(RawArray& a, RawArray& b) {
     if (a.components != b.components) return false;
     if (a.has_labels() != b.has_labels()) {
-        // Those of uint64 that are no int64 were refused as labels, and may be among the plain ones.
+        // Numbers of uint64 that are no int64 were refused as labels, and may be among the plain ones.
         RawArray& plain = a.has_labels() ? b : a;
         if (!plain.is_wide_integer()) return false;
         plain.make_labels();
@@ -304,7 +304,7 @@ void join_pieces(RawGrid& grid, const std::string& path) {
     std::vector<std::int32_t> first;
     if (ids == nullptr) {
         first = first_of_each<base::PointBits, base::HashOfBits>(points, bits_at);
-        // Those of one piece are as their writer wants them.
+        // Nodes of one piece at one place are as their writer wants them.
         for (std::size_t piece = 0; piece < grid.piece_points.size(); ++piece) {
             const std::size_t begin = grid.piece_points[piece],
                               end = piece + 1 < grid.piece_points.size() ? grid.piece_points[piece + 1] : points;

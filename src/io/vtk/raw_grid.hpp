@@ -33,7 +33,7 @@ struct RawArray {
     /// Which cells (or points) are ghosts.
     bool is_ghost_flags() const { return name == ghost_name && fault.empty() && !has_labels() && components == 1; }
     bool is_wide_integer() const { return type == NumberType::int64 || type == NumberType::uint64; }
-    /// Precondition: it has no labels.
+    /// Requires: it has no labels.
     std::vector<double>& numbers() { return std::get<std::vector<double>>(values); }
     const std::vector<double>& numbers() const { return std::get<std::vector<double>>(values); }
     std::vector<std::int64_t>* integers() { return std::get_if<std::vector<std::int64_t>>(&values); }
@@ -56,8 +56,8 @@ struct RawFaces {
     std::vector<std::int64_t> face_ends, ring_ends;
     std::vector<std::int32_t> rings;
 
-    /// Of the next cell, as VTK writes them: how many, then how many nodes and these, face after face. False if the
-    /// numbers do not fit, or a node is none of `points`.
+    /// Appends the faces of the next cell, as VTK writes them: how many, then how many nodes and these, face after
+    /// face. False if the numbers do not fit, or a node is none of `points`.
     bool append(std::span<const std::int64_t> stream, std::size_t points);
     /// Behind those of `before` cells.
     void append(RawFaces more, std::size_t before, std::size_t cells, std::size_t points);
@@ -76,8 +76,8 @@ struct StructuredGrid {
 
     static constexpr std::size_t listed = 400;  ///< bytes a point, with cells: their nodes, and six parts each
 
-    /// What is wrong with their number; empty: nothing. Few bytes describe any number: no more than memory holds, with
-    /// so many bytes each.
+    /// Says what is wrong with the number of points; empty: nothing. Few bytes describe any number: no more than memory
+    /// holds, with so many bytes each.
     std::string fault(std::size_t bytes_a_point) const;
     std::string fault(Wanted part, bool along_axes) const {
         if (!along_axes || part != Wanted::all) return fault(3 * sizeof(double));
@@ -86,7 +86,7 @@ struct StructuredGrid {
     }
     std::size_t point_count() const { return counts[0] * counts[1] * counts[2]; }
     std::size_t cell_count() const;
-    /// Cells go with Part::all. Those along axes stay unlisted then.
+    /// Appends points, and with Part::all cells. Cells along axes stay unlisted then.
     void append_to(RawGrid& grid, Wanted part) const;
 };
 
@@ -150,7 +150,7 @@ struct FileText {
 };
 
 /// Reads the numbers of an array whose name, components and type are known: as doubles or, where these are not exact,
-/// as labels, if `may_label`. Markers of points are labels in any case. What can be neither has a fault.
+/// as labels, if `may_label`. Markers of points are labels in any case. An array that can be neither has a fault.
 /// `read`: appends all of them there, from the first on, and tells a number that is not exact.
 void read_numbers(RawArray& array, bool of_points, bool may_label,
                   const std::function<void(NumbersTo values, NumberFault& inexact)>& read);
@@ -161,7 +161,7 @@ bool takes_texts(RawArray& array, bool may_label);
 /// The first node that is none of `count` points; nodes.size() if there is none.
 std::size_t first_wrong_node(const std::vector<std::int32_t>& nodes, std::size_t count);
 
-/// Those of `from` behind those of `to`, on large pages.
+/// Moves the entries of `from` behind those of `to`, on large pages.
 template <class T>
 void move_behind(std::vector<T>& to, std::vector<T>& from) {
     if (to.empty()) {
@@ -186,8 +186,8 @@ void join_pieces(RawGrid& grid, const std::string& path);
 void check_legacy_head(std::string_view bytes, const std::string& path);
 RawGrid read_legacy(std::string_view bytes, const std::string& path, Wanted part);
 
-/// What read_vtk promises of cells, points, fields and notes, whatever the format. `path` is for messages. `space`: as
-/// for to_points; then polygons are triangles, too. `list_grids`: see ReadOptions.
+/// Makes the mesh as read_vtk promises it (cells, points, fields and notes), whatever the format. `path` is for
+/// messages. `space`: as for to_points; then polygons are triangles, too. `list_grids`: see ReadOptions.
 Mesh to_mesh(RawGrid grid, const std::string& path, InSpace* space = nullptr, bool list_grids = true);
 
 /// The coordinates in that dimension, all finite. Error: one is not; or z is not 0 in dimension 2, with a remedy for

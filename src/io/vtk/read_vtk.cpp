@@ -39,7 +39,7 @@ std::string path_beside(const std::string& collection, std::string_view name) {
     return (std::filesystem::path(collection).parent_path() / std::filesystem::path(name)).string();
 }
 
-/// Types of files. Those of pieces (P...) have the names in <Piece Source="...">, the others in <DataSet file="...">.
+/// Types of files. Types with pieces (P...) have the names in <Piece Source="...">, the others in <DataSet file="...">.
 constexpr std::string_view collection_types =
     "PUnstructuredGrid PPolyData vtkMultiBlockDataSet vtkPartitionedDataSet vtkPartitionedDataSetCollection Collection";
 
@@ -49,7 +49,8 @@ const Json& member_of(const Json& object, const char* name) {
     return object.is_object() && object.contains(name) ? object[name] : none;
 }
 
-/// What the root of a file of collection_types names; nothing if it is another. Error: an entry without file or time.
+/// Returns the files that a root of collection_types names; nothing for another root. Error: an entry without file or
+/// time.
 std::optional<Collection> files_of(const XmlTree& tree) {
     const std::string_view type = tree.root().attribute_or("type", "");
     if (tree.root().name != "VTKFile" || !has_word(collection_types, type) || tree.child(&tree.root(), type) == nullptr)
@@ -73,8 +74,9 @@ std::optional<Collection> files_of(const XmlTree& tree) {
     return collection;
 }
 
-/// What ParaView's series file (NAME.vtu.series) names: {"files": [{"name": "a.vtu", "time": 0.5}, ...]}. Error: no
-/// JSON, a member that is missing or of another kind, a time that is not finite, a file of more than 64 MiB.
+/// Returns the files that ParaView's series file (NAME.vtu.series) names: {"files": [{"name": "a.vtu", "time": 0.5},
+/// ...]}. Error: no JSON, a member that is missing or of another kind, a time that is not finite, a file of more than
+/// 64 MiB.
 Collection read_series_file(std::string_view bytes, const std::string& path) {
     const auto refuse = [&](const std::string& what, const std::string& expected, const std::string& found,
                             std::size_t line = 0) {
@@ -190,7 +192,7 @@ std::vector<SeriesStep> steps_of(std::span<const CollectionFile> files) {
     return steps;
 }
 
-/// What blocks make the mesh: unstructured grids; where there are none, structured ones; else polygons.
+/// Kind of blocks that make the mesh: unstructured grids; where there are none, structured ones; else polygons.
 enum class GridKind : std::uint8_t { unstructured, structured, polygons };
 
 GridKind kind_of_block(const std::string& path) {
@@ -198,7 +200,7 @@ GridKind kind_of_block(const std::string& path) {
     return has_one_of(path, {".vti", ".vtr", ".vts"}) ? GridKind::structured : GridKind::unstructured;
 }
 
-/// Of the files, or those that they name.
+/// Chooses the kind by the files, or those that they name.
 GridKind blocks_of_mesh(std::span<const CollectionFile> files) {
     GridKind kind = GridKind::polygons;
     for (const CollectionFile& file : files) {
@@ -214,7 +216,7 @@ bool is_unread(const std::string& path) {
     return has_one_of(path, {".pvti", ".pvtr", ".pvts", ".vtt", ".vth"});
 }
 
-/// Of files that name files, each is read once. Errors are thrown as Exceptions.
+/// Reads files, and files that these name, each once. Errors are thrown as Exceptions.
 class GridReader {
 public:
     explicit GridReader(Wanted part, const StepChoice& step = {}) : part_(part), step_(step) {}

@@ -28,7 +28,7 @@ struct XmlTree : FileText {
     bool appended_raw = false;  ///< as they are; else in base64
     /// Reads a part of them to that place, if they are not in memory: the part is where it would stand there.
     std::function<void(std::string_view part, char* to)> read_part = {};
-    // What the attributes of the root say of all arrays, once it is taken.
+    // Layout of all arrays by the attributes of the root, once take_layout() has read them.
     bool swap_bytes = false;
     std::size_t header_bytes = 4;  ///< of the integers before the data: 4 or 8
     VtkData compressor = VtkData::raw;
@@ -53,8 +53,8 @@ struct XmlTree : FileText {
     }
 };
 
-/// What follows the tag of appended data is not looked at, nor are the numbers in elements. Error: no well-formed XML,
-/// a document type (whose entities might expand without bound), another encoding of appended data.
+/// Parses the tags. Looks neither at what follows the tag of appended data nor at the numbers in elements. Error: no
+/// well-formed XML, a document type (whose entities might expand without bound), another encoding of appended data.
 XmlTree parse_xml(std::string_view bytes, const std::string& path);
 
 /// The data set of one file: UnstructuredGrid, PolyData, ImageData, RectilinearGrid or StructuredGrid.

@@ -39,7 +39,7 @@ bool decode_digits(const char* from, std::size_t quadruples, char* to) {
 /// next quadruple: VTK encodes the head of compressed data apart from the data. It ends at any other character.
 class Encoded {
 public:
-    /// Those in base64 are in memory, the others if the tree does not read parts.
+    /// Requires: bytes in base64 are in memory, and so are others if the tree does not read parts.
     Encoded(std::string_view bytes, bool base64, const XmlTree& tree) : left_(bytes), base64_(base64), tree_(tree) {}
 
     /// The next `count` bytes, or nothing: of the file, or in `room`, which must live as long as they.
@@ -71,7 +71,7 @@ public:
         return std::string_view(to, size);
     }
 
-    /// The next bytes where they stand or, if is_unread(), would. Precondition: so many, no base64.
+    /// The next bytes where they stand or, if is_unread(), would. Requires: so many, no base64.
     std::string_view take_as_they_stand(std::size_t count) {
         const std::string_view taken = left_.substr(0, count);
         left_.remove_prefix(count);
@@ -79,7 +79,7 @@ public:
     }
     bool is_unread() const { return !base64_ && tree_.read_part; }
 
-    /// That many bytes are left at most.
+    /// The most bytes that are left.
     std::uint64_t left() const { return base64_ ? left_.size() / 4 * 3 + 3 + held_ : left_.size(); }
 
 private:
@@ -299,7 +299,7 @@ NumberFault read_any(const XmlTree& tree, const XmlElement& array, const std::st
 }  // namespace
 
 void XmlTree::take_layout() {
-    // What each attribute may be; the first is that of files without it.
+    // Values of each attribute; the first is that of files without the attribute.
     constexpr std::array<std::string_view, 2> orders{"LittleEndian", "BigEndian"}, headers{"UInt32", "UInt64"};
     const auto choose = [&](const char* key, std::span<const std::string_view> values) {
         const std::string_view value = root().attribute_or(key, values.front());

@@ -186,7 +186,8 @@ private:
         }
     }
 
-    /// The cells of an element, behind those that there are. Those of no section of polygon data have types.
+    /// Reads the cells of an element, behind those that there are. Cells have types unless they are in a section of
+    /// polygon data.
     void read_section(const XmlElement& piece, const char* name, std::size_t count, std::optional<Section> section,
                       RawGrid& grid) const {
         if (count == 0) return;

@@ -98,7 +98,7 @@ bool parse_tags(std::string_view bytes, ElementParser& parser) {
     std::size_t first = 0;  // not yet handed over
     for (std::size_t tag = find_tag(0), next; tag < bytes.size(); tag = next) {
         if (bytes.substr(tag, appended_tag.size()) == appended_tag) {
-            // What follows may be anything: the tag alone.
+            // Hands over the tag alone: anything may follow it.
             const std::size_t behind = behind_tag(bytes, tag);
             if (!parser.parse(bytes, first, behind)) return false;
             first = behind;

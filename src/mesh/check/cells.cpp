@@ -20,7 +20,7 @@ int plain_sign(int d, const double* const* p) {
     return det > 0 ? 1 : det < 0 ? -1 : 0;
 }
 
-/// Which kind of degenerate cell it is. Precondition: its volume is exactly zero.
+/// Which kind of degenerate cell it is. Requires: its volume is exactly zero.
 const char* kind(int d, const double* const* p) {
     const double* other = nullptr;  // a second place
     for (int i = 1; i <= d; ++i) {

@@ -131,7 +131,7 @@ void check_all(Checked& c) {
     c.stage("facets");
     const bool proved = check_facets(c);
     if (c.enough()) return;
-    // What one thread does alone is done beside the rest.
+    // Steps that one thread does alone run beside the rest.
     tbb::task_group parts;
     if (!c.options.verdict_only) parts.run([&] { c.report.parts = count_parts(c); });
     check_boundary_and_pairs(c, proved);

@@ -22,7 +22,7 @@ struct Point {
 };
 
 /// [i][j]: corner j of `other` over the side of the cell opposite to corner i: not negative for all i if it is in the
-/// cell. Of a triangle in space also over and under its plane.
+/// cell. For a triangle in space also over and under its plane.
 std::vector<std::vector<Number>> over_sides(const std::vector<WholeVector>& cell,
                                             const std::vector<WholeVector>& other) {
     const std::size_t n = cell.size();
@@ -102,13 +102,14 @@ std::vector<Point> spanning(std::size_t d, const std::vector<Point>& points) {
 }
 
 /// Longer fractions are not put in lowest terms, but for powers of two, and are not written where doubles do as well:
-/// either takes time quadratic in their length. Those of coordinates within 2^60 of each other have a few hundred bits.
+/// either takes time quadratic in their length. Numbers of coordinates within 2^60 of each other have a few hundred
+/// bits.
 constexpr std::size_t max_bits = 4096;
 
 /// numerator / denominator * 2^exponent as it is written, and rounded.
 class Fraction {
 public:
-    /// Precondition: the denominator is positive.
+    /// Requires: the denominator is positive.
     Fraction(Number numerator, Number denominator, int exponent)
         : numerator_(std::move(numerator)), denominator_(std::move(denominator)) {
         if (numerator_ == 0) {
@@ -172,8 +173,7 @@ CellContact common_part(Simplex simplex, const CellPair& cells, const Corners& a
     const int dimension = static_cast<int>(points.size()) - 1;
     CellContact contact{cells, points.size() == n, dimension, {}};
     if (points.empty()) return contact;
-    // What the two have in common is the convex hull of all points: the mean of some that span it is in its relative
-    // interior.
+    // The convex hull of all points is the common part: the mean of some that span it is in its relative interior.
     Point sum{{}, 1};
     for (const auto& [x, weight] : points) {
         for (std::size_t k = 0; k < 3; ++k) sum.x[k] = sum.x[k] * weight + x[k] * sum.weight;

@@ -210,7 +210,7 @@ private:
 
     const Checked& c_;
     double half_extent_ = half_extent_of(*c_.options.plc);
-    /// Of the unit of the regions, the largest power of two in the extent.
+    /// Exponent of the unit of the regions, the largest power of two in the extent.
     int exponent_ = half_extent_ > 0 ? std::ilogb(half_extent_) + 1 : 0;
     std::vector<PlcRegion> regions_;
     std::vector<Point> missing_;

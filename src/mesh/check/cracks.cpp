@@ -126,7 +126,7 @@ private:
     const std::vector<BoundaryFacet>& facets_;
     std::size_t d_;
     base::DisjointSets same_{mesh_.point_count()};
-    /// Of the boundary's edges at each node.
+    /// The shortest edge of the boundary at each node.
     std::vector<double> shortest_ = std::vector<double>(mesh_.point_count(), no_edge);
     std::vector<std::uint8_t> merged_ = std::vector<std::uint8_t>(mesh_.point_count(), 0);
     std::vector<Mesh::Index> places_;  ///< of nodes at one place the lowest
@@ -160,7 +160,8 @@ void find_cracks(Checked& c, const BoundaryContacts& touching, const std::vector
         for (const HangingNode& h : nearly) tell(h, DefectKind::near_hanging);
         if (!found.complete) defects[DefectKind::near_hanging].at_least = true;
     }
-    // Of cells that meet where they must not, one with a node and one with its twin, or with what it hangs on.
+    // Two cells that meet where they must not are explained if one has a node and the other its twin, or what it hangs
+    // on.
     std::vector<std::uint8_t> twin(mesh.point_count(), 0);
     const auto find_cause = [&](Mesh::Index cell, Mesh::Index other) {
         const std::span others = mesh.corners_of(static_cast<std::size_t>(other));

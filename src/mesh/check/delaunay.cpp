@@ -40,7 +40,7 @@ double depth(int d, const double* const* p, const double* apex) {
     return std::isfinite(value) ? std::max(value, 0.0) : 0;
 }
 
-/// Of equal depths the first counts.
+/// Adds a part; of equal depths the first counts.
 void add(const DelaunayReport& part, DelaunayReport& all) {
     all.facets += part.facets;
     all.violations += part.violations;

@@ -111,7 +111,7 @@ void search_facets(Checked& c) {
         });
 }
 
-/// False if it is not proved that the cells partition a domain. Precondition: all are usable, none degenerate.
+/// False if it is not proved that the cells partition a domain. Requires: all are usable, none degenerate.
 bool find_facets_of_partition(Checked& c) {
     index::CellIndex index = index::make_cell_index(c.mesh);
     const index::FacetLinks links = index::link_facets(index);

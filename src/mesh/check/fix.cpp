@@ -25,7 +25,8 @@ std::size_t at(Index i) {
     return static_cast<std::size_t>(i);
 }
 
-/// Of rows sorted by their keys, those that go: all but the first of a key.
+/// Splits rows, sorted by their keys: the first of each key is kept; the others go if `twins_go`, else they are kept,
+/// too.
 template <class Key>
 void split(const std::vector<std::pair<Key, Index>>& rows, bool twins_go, std::vector<Index>& kept,
            std::vector<Twin>& twins) {
@@ -190,7 +191,7 @@ private:
         if (told.differ != 0) to.push_back(std::move(told));
     }
 
-    /// Of values of nodes, cells or faces, if there are any.
+    /// Counts the pairs whose values differ, of nodes, cells or faces; 0 if there are no values.
     template <class T>
     static std::uint64_t count_differing(const std::vector<T>& values, const std::vector<Twin>& twins) {
         if (values.empty()) return 0;
@@ -251,7 +252,7 @@ private:
             mesh::keep_rows(mesh_.cell_numbers, 1, kept);
     }
 
-    /// Those that no cell has, and of those that merging made the same all but the first.
+    /// Drops faces that no cell has, and all but the first of those that merging made the same.
     void drop_faces() {
         if (mesh_.faces.empty()) return;
         const auto found = check::faces_of_cells(mesh_, std::vector<std::uint8_t>(mesh_.cell_count(), 1));

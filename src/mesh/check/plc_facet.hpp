@@ -39,7 +39,7 @@ public:
     /// It has an area.
     bool proper() const { return proper_; }
     const std::vector<Triangle>& triangles() const { return triangles_; }
-    /// Those of all rings, one ring after the other.
+    /// The vertices of all rings, one ring after the other.
     const std::vector<const double*>& vertices() const { return vertices_; }
 
     /// The two axes of the projection.

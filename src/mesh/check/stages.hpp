@@ -85,7 +85,7 @@ public:
         return has([](const DefectText& t) { return t.breaks; });
     }
 
-    /// Those that occur; first those that break the certificate.
+    /// Returns the defects that occur, first those that break the certificate.
     std::vector<Defect> list() && {
         std::erase_if(all_, [](const Defect& f) { return f.count == 0; });
         std::stable_partition(all_.begin(), all_.end(), std::mem_fn(&Defect::breaks));
@@ -98,7 +98,7 @@ private:
     std::vector<Defect> all_;
 };
 
-/// What is asked of a mesh or a surface, and what is found of it in one stage after the other.
+/// A check's questions about a mesh or a surface, and its findings, one stage after the other.
 struct CheckRun {
     const CheckOptions& options;
     CheckReport& report;
@@ -144,14 +144,14 @@ void in_waves(std::size_t count, std::size_t block, const Part& empty, Work work
     }
 }
 
-/// What a search found, and whether that is all: it stops where it finds more than anybody wants.
+/// Results of a search, and whether they are all: a search stops where it finds more than anybody wants.
 template <class T>
 struct LimitedList {
     std::vector<T> list;
     bool complete = true;
 };
 
-/// What work(first, last, part) adds to the parts, in order, up to `limit`. A part with more need not go on.
+/// Collects what work(first, last, part) adds to the parts, in order, up to `limit`. A part with more need not go on.
 template <class T, class Work>
 LimitedList<T> up_to(std::size_t limit, std::size_t count, std::size_t block, Work work) {
     LimitedList<T> found;
@@ -163,7 +163,7 @@ LimitedList<T> up_to(std::size_t limit, std::size_t count, std::size_t block, Wo
     return found;
 }
 
-/// Where the corners of a cell stand. Precondition: it is usable.
+/// Where the corners of a cell stand. Requires: it is usable.
 inline std::array<const double*, 4> corner_points(const Mesh& mesh, std::size_t cell) {
     std::array<const double*, 4> p{};
     for (std::size_t i = 0; i < mesh.corners(); ++i) p[i] = mesh.point(mesh.cells[cell * mesh.corners() + i]);
@@ -263,7 +263,7 @@ std::vector<CellPair> find_nested_parts(Checked& c, const std::vector<std::uint3
 std::vector<CellPair> find_overlapping_cells(Checked& c);
 
 /// The intersection of two closed cells: its dimension (-1: empty) and a point in its relative interior, computed in
-/// integers. If the interiors meet, that point lies in both. Precondition: finite, and neither degenerate. Slow: tens
+/// integers. If the interiors meet, that point lies in both. Requires: finite, and neither degenerate. Slow: tens
 /// of microseconds, or up to some milliseconds (coordinates over the whole range of doubles, numbers of 30,000 bits).
 CellContact common_part(const Mesh& mesh, const CellPair& cells);
 
@@ -276,14 +276,14 @@ void mark_used(const std::vector<Mesh::Index>& indices, std::vector<std::uint8_t
 std::vector<std::uint8_t> find_finite(const std::vector<double>& points, int d, const std::vector<std::uint8_t>& used,
                                       DefectList& defects);
 
-/// Those of `nodes` at the place of another one, second, each with the lowest that is there, first; by the second. 0
-/// and -0 are one place. Precondition: their coordinates are finite.
+/// Returns pairs of `nodes` at one place: each node that is not the lowest there comes second, after the lowest; sorted
+/// by the second. 0 and -0 are one place. Requires: their coordinates are finite.
 std::vector<std::array<Mesh::Index, 2>> coincident_nodes(const Mesh& mesh, const std::vector<Mesh::Index>& nodes);
 
 /// Around a node. Rounding keeps the order: no double within the radius is left out.
 Box box_around(const Mesh& mesh, Mesh::Index node, double radius);
 
-/// Of two nodes, rounded.
+/// The distance of two nodes, rounded.
 double node_distance(const Mesh& mesh, Mesh::Index a, Mesh::Index b);
 
 struct NearPair {
@@ -306,13 +306,13 @@ LimitedList<HangingNode> nearly_hanging(const Checked& c, const std::vector<doub
 /// near nodes. `meeting`: cells that meet where they must not; what two of them have of these is the cause.
 void find_cracks(Checked& c, const BoundaryContacts& touching, const std::vector<CellPair>& meeting);
 
-// What else can be asked of a mesh, on all threads of the calling arena.
+// Further questions about a mesh, each answered on all threads of the calling arena.
 
 /// Sets CellMeasures::jacobian. Nothing if no cell has a map, or the arrays of the mesh do not fit.
 std::optional<MapReport> check_maps(const Checked& c);
 DelaunayReport check_delaunay(const Checked& c);
 
-/// Areas mean little where the mesh is not certified. Precondition: tetrahedra.
+/// Areas mean little where the mesh is not certified. Requires: tetrahedra.
 ConformityReport check_conformity(const Checked& c);
 
 }  // namespace barycert::check

@@ -20,7 +20,7 @@ public:
 
     Quantizer() = default;
 
-    /// Of the box from low to high, d coordinates each, finite and ordered.
+    /// Requires: the box from low to high, d coordinates each, is finite and ordered.
     Quantizer(std::size_t d, const double* low, const double* high) {
         for (std::size_t k = 0; k < d; ++k) {
             half_low_[k] = low[k] * 0.5;
@@ -31,12 +31,12 @@ public:
         }
     }
 
-    /// Precondition: x is finite.
+    /// Requires: x is finite.
     std::int32_t at(std::size_t k, double x) const {
         return static_cast<std::int32_t>(std::clamp(before_rounding(k, x), 0.0, static_cast<double>(max)));
     }
 
-    /// What at() cuts off: (x / 2 - half_low) * scale, rounded as written.
+    /// The number that at() rounds down: (x / 2 - half_low) * scale, rounded as written.
     double before_rounding(std::size_t k, double x) const { return (x * 0.5 - half_low_[k]) * scale_[k]; }
     double half_low(std::size_t k) const { return half_low_[k]; }
     double scale(std::size_t k) const { return scale_[k]; }
@@ -62,7 +62,7 @@ public:
     std::size_t count() const { return std::size_t{1} << bits_; }
     int bits() const { return bits_; }
 
-    /// What `of` does on axis k: the table entry of a coordinate's whole number without its last `shift` bits.
+    /// The steps of `of` on axis k: the table entry of a coordinate's whole number without its last `shift` bits.
     int shift(std::size_t k) const { return shift_[k]; }
     const std::uint32_t* curve(std::size_t k) const { return curve_[k].data(); }
 

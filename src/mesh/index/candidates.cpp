@@ -23,9 +23,10 @@ std::optional<Vector> direction(int d, const double* from, const double* to) {
     return Vector{v[0] / sum, v[1] / sum, v[2] / sum};
 }
 
-/// Of all directions y / |y|, |y| the sum of magnitudes, of sums of the given ones with factors that are not negative.
-/// These have |y| = 1 and components off by at most `error`. For means y of them low <= y <= high, and |y| is at least
-/// the sum of the magnitudes that no component falls below; in one orthant |y| = 1, being linear there.
+/// Returns a box of all directions y / |y|, where y is a sum of the given directions with factors that are not
+/// negative, and |y| the sum of its components' magnitudes. The given ones have |y| = 1 and components off by at most
+/// `error`. A mean y of them has low <= y <= high, and |y| is at least the sum of the magnitudes that no component
+/// falls below; in one orthant |y| = 1, being linear there.
 Box directions(std::span<const Vector> given, double error) {
     Box box{given[0], given[0]};
     for (const Vector& v : given) box.add({v, v});
@@ -47,7 +48,7 @@ Box directions(std::span<const Vector> given, double error) {
     return box;
 }
 
-/// Of the directions from the node at `from` to the points of the item.
+/// A box of the directions from the node at `from` to the points of the item.
 Box directions_from(int d, const Item& item, const double* from) {
     std::array<Vector, 3> given{};
     std::size_t count = 0;
@@ -61,7 +62,7 @@ Box directions_from(int d, const Item& item, const double* from) {
     return directions(std::span(given).first(count), 0x1p-49);
 }
 
-/// Of the half planes at the line through both, turned by a right angle: v x (to - from), linear in v, has the
+/// A box of the half planes at the line through both, turned by a right angle: v x (to - from), linear in v, has the
 /// direction of the half plane of `from` + v, and is no direction but for points of the line.
 Box directions_around(int d, const Item& item, const double* from, const double* to) {
     std::array<Vector, 2> given{};

@@ -17,9 +17,9 @@ struct KeyedPlace {
     std::int32_t place;
 };
 
-/// Of the first pass, over all items, at most: as many as the second cache holds lines for.
+/// Bits of the first pass, over all items, at most: as many as the second cache holds lines for.
 constexpr int high_bits = 11;
-/// Of each later pass, over one bucket of the first.
+/// Bits of each later pass, over one bucket of the first.
 constexpr int low_bits = 8;
 
 /// Items by their highest bits; returns where each bucket begins, and the end.

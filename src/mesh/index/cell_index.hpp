@@ -46,7 +46,8 @@ private:
 /// order find what they need in cache.
 using Place = std::int32_t;
 
-/// What a step of a walk reads of a cell: half of a cache line. The last corner of a triangle repeats the first one.
+/// Data of a cell that a step of a walk reads: half of a cache line. The last corner of a triangle repeats the first
+/// one.
 struct alignas(32) CellRecord {
     std::array<Place, 4> node;
     std::array<Place, 4> next;  ///< the cell across the facet opposite to each corner, -1 where there is none
@@ -94,11 +95,11 @@ struct CellIndex {
 /// The vertices of a cell, vertex after vertex (see Case).
 std::array<double, 12> vertices_of(const CellIndex& index, Place cell);
 
-/// Without neighbours, see link_facets. Precondition: the mesh is consistent. Time O(cells), on the threads of the
+/// Without neighbours, see link_facets. Requires: the mesh is consistent. Time O(cells), on the threads of the
 /// calling arena, which do not change the outcome.
 CellIndex make_cell_index(const Mesh& mesh);
 
-/// The same of cells without a mesh, or triangles in space. Precondition: their corners are points, and these are
+/// The same of cells without a mesh, or triangles in space. Requires: their corners are points, and these are
 /// finite. `wholes`: as Mesh::Shapes::parts, or empty.
 CellIndex make_cell_index(Simplex simplex, std::span<const double> points, std::span<const Mesh::Index> cells,
                           std::span<const Mesh::Index> wholes = {});

@@ -7,7 +7,7 @@
 namespace barycert::index {
 namespace {
 
-/// Of the rows p[0], ..., p[d - 1], less `origin` if there is one.
+/// The determinant of the rows p[0], ..., p[d - 1], less `origin` if there is one.
 template <int d, class T>
 Integer determinant_of(const core::Unit (&units)[3], const double* const* p, const double* origin) {
     T rows[d][d];

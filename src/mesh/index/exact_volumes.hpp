@@ -28,7 +28,7 @@ public:
     /// The integers from above count 2^unit().
     int unit() const { return exponent_; }
 
-    /// floor(log2) of the volume that `n` from above stands for, to within d. Precondition: not zero.
+    /// floor(log2) of the volume that `n` from above stands for, to within d. Requires: not zero.
     int exponent(const Integer& n) const;
 
     /// The volume that `n` from above stands for, divided by 2^(d * scale), correctly rounded.

@@ -19,7 +19,7 @@ int orient(Point a, Point b, Point c, Point d) {
 
 // In the plane.
 
-/// On the closed segment from a to b. Precondition: on its line.
+/// On the closed segment from a to b. Requires: on its line.
 bool between(Point a, Point b, Point p) {
     for (int k = 0; k < 2; ++k) {
         if (p[k] < std::min(a[k], b[k]) || p[k] > std::max(a[k], b[k])) return false;

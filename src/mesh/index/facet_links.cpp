@@ -135,7 +135,7 @@ private:
 /// partners.
 constexpr std::size_t block_size = std::size_t{1} << 13;
 
-/// What blocks leave open is linked in parts, by hash.
+/// Facets that blocks leave open are linked in parts, by hash.
 constexpr std::size_t parts = 64;
 
 struct OpenFacets {

@@ -87,7 +87,7 @@ HWY_INLINE V determinant(D tag, const Vertices& v) {
     return hn::IfThenElseZero(hn::And(valid, hn::Gt(hn::Abs(value), bound)), value);
 }
 
-/// Of a vector of cells: 1 or -1 for each that is certainly positive or negative, else 0.
+/// Sets, for a vector of cells, 1 or -1 for each that is certainly positive or negative, else 0.
 template <Simplex s, class D>
 HWY_INLINE void find_signs(D tag, const CellRecord* cells, const NodeRecord* nodes, std::int8_t* out) {
     using V = hn::Vec<D>;

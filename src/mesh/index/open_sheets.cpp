@@ -146,7 +146,7 @@ std::vector<FacetPair> conflicting_pairs(const CellIndex& index, const std::vect
     for (std::size_t first = 0; first < suspects.count() && all.size() <= limit; first += wave) {
         std::vector<std::vector<FacetPair>> found(std::min(wave, suspects.count() - first));
         suspects.for_each(first, first + found.size(), [&](std::size_t part, std::size_t i, std::size_t j) {
-            // What has far more than anybody wants need not be asked to its end.
+            // A part that has far more than anybody wants need not be searched to its end.
             if (found[part].size() > limit) return;
             if (facets[i].nodes == facets[j].nodes || facets_conflict(d, facets[i], facets[j]))
                 found[part].push_back({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j)});

@@ -20,7 +20,7 @@ public:
     RidgeTurn(int d, const std::vector<PlacedFacet>& facets) : d_(d), facets_(facets) {}
 
     /// Ridges of the same nodes in the order of a turn around these from the first one on, in space counterclockwise as
-    /// seen along the edge from its lower node to its higher one. They stand until the next call. Precondition: no two
+    /// seen along the edge from its lower node to its higher one. They stand until the next call. Requires: no two
     /// facets have one direction from there.
     std::span<const Ridge> sorted(std::span<const Ridge> ridges);
 

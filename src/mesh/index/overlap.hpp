@@ -12,13 +12,13 @@ using Corners = std::array<const double*, 4>;
 /// False if a facet of one cell separates the interiors of both. May be true where they are disjoint.
 bool may_overlap(int d, const Corners& a, const Corners& b);
 
-/// True if the interiors have a point in common. Preconditions: not degenerate, coordinates finite.
+/// True if the interiors have a point in common. Requires: not degenerate, coordinates finite.
 bool interiors_meet(int d, const Corners& a, const Corners& b);
 
 /// A cell as an item of candidates.hpp, its nodes by place.
 Item item_of(const CellIndex& index, Place cell);
 
-/// What a pair of an item and a cell settles.
+/// Which of an item and a cell a pair of them settles.
 enum class Decided : std::uint8_t { nothing, item, cell };
 
 /// use(i, cell) for each item i and each cell that may have a point in common with it beside the face of their common
@@ -30,7 +30,7 @@ bool for_each_near_cell(const CellIndex& index, std::span<const Item> items, std
                         const std::function<const CellTree&()>& tree,
                         const std::function<Decided(std::size_t, Place)>& use);
 
-/// 1 for each of the cells `asked` whose interior meets that of another cell. Those that are degenerate (ascending) are
+/// 1 for each of the cells `asked` whose interior meets that of another cell. Cells that are degenerate (ascending) are
 /// not looked at. On the threads of the calling arena.
 std::vector<std::uint8_t> find_overlapped(const CellIndex& index, std::span<const Place> asked,
                                           std::span<const Place> degenerate,

@@ -28,7 +28,7 @@ bool all_on_side(const Plane& plane, std::span<const Corner> corners, Sign side)
 }
 
 /// False if the facet certainly meets the cell in a common face (of the same nodes) or not at all, and is not a linked
-/// facet of the cell. May be true where that is so. Preconditions: the facet is not degenerate; its nodes are places.
+/// facet of the cell. May be true where that is so. Requires: the facet is not degenerate; its nodes are places.
 ///
 /// A plane through all common vertices that has the other vertices of one of both strictly on one side, and the other
 /// one on the other side or on it, meets the first in the common face alone. Planes of facets are tried.

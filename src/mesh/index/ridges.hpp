@@ -18,8 +18,8 @@ struct Ridge {
     std::uint32_t other;  ///< which of the facet's nodes it does not have
 };
 
-/// Of all facets, which have their `nodes`; equal ones side by side, by facet. Memory: 4 bytes a node, up to the
-/// highest.
+/// Returns the ridges of all facets, which have their `nodes`; equal ones side by side, by facet. Memory: 4 bytes a
+/// node, up to the highest.
 template <class Facet>
 std::vector<Ridge> ridges_of(int d, const std::vector<Facet>& facets) {
     const auto n = static_cast<std::size_t>(d);

@@ -84,7 +84,7 @@ Triangles place_triangles(std::span<const double> points, std::span<const Mesh::
 }
 
 void join_sides(const Triangles& triangles, std::span<const Ridge> ring, base::DisjointSets& sides) {
-    // Of a triangle that ascends, the side where its normal points looks forward in the turn.
+    // A triangle that ascends looks forward in the turn with the side to which its normal points.
     for (std::size_t i = 0; i < ring.size(); ++i) {
         const Ridge &a = ring[i], &b = ring[(i + 1) % ring.size()];
         sides.join(2 * std::size_t{a.facet} + (triangles.ascends(a) ? 0 : 1),

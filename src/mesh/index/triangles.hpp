@@ -12,7 +12,7 @@ struct Triangles {
     CellIndex index;
     std::vector<Mesh::Index> degenerate;  ///< without an area; ascending
 
-    // Of each place:
+    // For each place:
     std::vector<PlacedFacet> facets;  ///< nodes by their places, ascending: of those at one place the first
     std::vector<std::uint8_t> odd;    ///< its nodes in that order turn it round
     std::vector<std::uint8_t> flat;   ///< it has no area; empty if none does, or these are left out
@@ -22,7 +22,7 @@ struct Triangles {
 
     std::size_t size() const { return facets.size(); }
     bool is_flat(std::size_t place) const { return !flat.empty() && flat[place] != 0; }
-    /// Of the triangle as given.
+    /// Numbers as they were given: of a triangle by its place, of a node by its place.
     Mesh::Index number(std::size_t place) const { return index.original[place]; }
     Mesh::Index node(Mesh::Index place) const { return index.original_node[static_cast<std::size_t>(place)]; }
     std::array<Mesh::Index, 3> nodes(std::size_t place) const {
@@ -41,10 +41,10 @@ struct Triangles {
     }
 };
 
-/// What becomes of triangles without an area.
+/// Rule for triangles without an area.
 enum class Flat : std::uint8_t { left_out, kept };
 
-/// `corners` of `numbers`: three each. Preconditions: they are points, which are finite. Uses the threads of the
+/// `corners` of `numbers`: three each. Requires: they are points, which are finite. Uses the threads of the
 /// calling arena.
 Triangles place_triangles(std::span<const double> points, std::span<const Mesh::Index> corners,
                           std::span<const Mesh::Index> numbers, Flat of_flat = Flat::left_out);

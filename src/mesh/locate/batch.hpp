@@ -22,7 +22,7 @@ inline std::optional<std::size_t> first_outside(std::span<const Mesh::Index> cel
     return std::nullopt;
 }
 
-/// What asks for listed cells (Mesh::axes).
+/// Returns the error that `what` needs listed cells (Mesh::axes).
 inline Error not_listed(const std::string& what) {
     return {.what = what + " of a grid whose cells are not listed", .remedy = "read it with ReadOptions::list_grids"};
 }

@@ -124,7 +124,7 @@ std::uint32_t place_of(std::uint32_t code, std::size_t axis) {
     return code >> (8 * axis) & 0xFFU;
 }
 
-/// Those in the box of the nodes: no cell holds another, and one far away would make the bins large.
+/// Returns the points in the box of the nodes: no cell holds another, and one far away would make the bins large.
 std::vector<double> points_in_box(const Mesh& mesh, std::span<const double> points) {
     const auto d = static_cast<std::size_t>(mesh.dimension);
     const Box box = base::parallel_reduce(

@@ -14,7 +14,7 @@ namespace barycert::locate {
 /// The bins that hold points. A bin is a code: its places on the axes in one byte each, x in the lowest one.
 class PointBins {
 public:
-    /// Of points with d coordinates, all finite; at least one point.
+    /// Requires: points with d coordinates, all finite; at least one point.
     PointBins(std::size_t d, std::span<const double> points);
 
     std::uint32_t code(const double* at) const {
@@ -68,7 +68,7 @@ struct CellBins {
 };
 
 /// Every cell whose box holds one of the points, and maybe others, ascending. Nothing if there are more than `max` of
-/// them, or if a corner is no node. Precondition: finite points. On all threads of the arena.
+/// them, or if a corner is no node. Requires: finite points. On all threads of the arena.
 std::optional<std::vector<Mesh::Index>> cells_at_points(const Mesh& mesh, std::span<const double> points,
                                                         std::size_t max);
 

@@ -22,13 +22,13 @@ public:
     void begin();
 
     /// For each of `count` <= chunk_size points: the place of its owner, -1 outside, and the feature. On a mesh for
-    /// walks they are those of the last begin(). Precondition: finite points in the box of the cells.
+    /// walks they are those of the last begin(). Requires: finite points in the box of the cells.
     void find(const PointRecord* points, std::size_t count, Place* owner, Feature* feature, LocationCounts& counts);
 
     /// The same for one point whose walk ended in doubt: `stuck` is what step_walks says, or -1 if it did not walk.
     void settle(const PointRecord& point, Place stuck, Place& owner, Feature& feature);
 
-    /// found(point, cell of the mesh, feature) for every cell that holds each of the points, in no order. Precondition:
+    /// found(point, cell of the mesh, feature) for every cell that holds each of the points, in no order. Requires:
     /// as of find().
     template <class F>
     void find_all(const PointRecord* points, std::size_t count, LocationCounts& counts, F found) {

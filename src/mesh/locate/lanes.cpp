@@ -149,8 +149,8 @@ HWY_INLINE void append(D bits, hn::Vec<D> walks, M mask, WalkList& to) {
     to.count += hn::CompressStore(walks, mask, bits, reinterpret_cast<std::uint64_t*>(to.walks.data() + to.count));
 }
 
-/// Steps of the walks [at, at + width). What is proved is proved as in filter-inl.hpp. If all numerators are certainly
-/// of one sign, so is the denominator, their exact sum.
+/// Steps of the walks [at, at + width). Proofs are those of filter-inl.hpp. If all numerators are certainly of one
+/// sign, so is the denominator, their exact sum.
 template <Simplex s, bool fetch, class D>
 HWY_INLINE void step(D tag, const CellRecord* cells, const NodeRecord* nodes, const PointRecord* points,
                      const Walk* walks, StepTargets& to) {

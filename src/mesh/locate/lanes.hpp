@@ -17,7 +17,7 @@ struct alignas(32) ValueRecord {
     std::array<double, 4> value;
 };
 
-/// What is read of a node: its coordinates and component 0 side by side, then components in fours.
+/// A node's data as lanes read them: its coordinates and component 0 side by side, then components in fours.
 struct NodeValues {
     const NodeRecord* first = nullptr;
     /// Component c >= 1 of a node: more[(c - 1) / 4 * node_count + node], (c - 1) % 4.

@@ -21,7 +21,7 @@ struct LocatorData : FrozenIndex {
           parts(*this, options.prove == Prove::never ? Method::candidates : Method::walk, options.threads),
           policy(parts, index) {}
 
-    /// Its location, by that in straight simplices or parts of cells; none if it is not finite. Precondition: mapped.
+    /// Its location, by that in straight simplices or parts of cells; none if it is not finite. Requires: mapped.
     Location settle(const double* point, Location in_parts) const;
 
     LazyParts parts;

@@ -164,8 +164,8 @@ private:
     Real best_ = 0;
 };
 
-/// What is likely the feature of the cell nearest to p, a place of it, and a bound: no point of the cell is nearer to p
-/// than by |p - place|^2 - `gap`, in squares. For with y = p - place and any x of the cell
+/// A guess of the feature of the cell that is nearest to p, a place of it, and a bound: no point of the cell is nearer
+/// to p than by |p - place|^2 - `gap`, in squares. For with y = p - place and any x of the cell
 ///   |p - x|^2 >= |y|^2 - 2 y.(x - place), where a product is largest at a corner.
 struct NearGuess {
     unsigned mask = 0;

@@ -40,7 +40,7 @@ public:
         const int most = cell_.in_space ? cell_.count : cell_.count - 1;
         if (!cell_.in_space && corners == most && sides_.sign(std::countr_one(mask)) == Sign::positive) return false;
         for (int i = 0; i < cell_.count; ++i) {
-            // What lies within it, and on the faces of one dimension more.
+            // Looks at what lies within the face, and on the faces of one dimension more.
             if (corners > 1 && (mask >> i & 1) != 0 && !positive(mask, i)) return false;
             if (corners < most && (mask >> i & 1) == 0 && positive(mask | 1U << i, i)) return false;
         }
@@ -70,7 +70,7 @@ using Number = core::WholeNumber;
 using Vector = core::WholeVector;
 using base::cross, base::dot, base::minus;
 
-/// Of p and the corners of features.
+/// Whole numbers in the unit of p and the corners of features.
 struct Lattice : core::WholePoints {
     Lattice(const Point3& p, std::initializer_list<const NearFeature*> features) : WholePoints({p.data()}) {
         for (const NearFeature* const f : features) {
@@ -80,7 +80,7 @@ struct Lattice : core::WholePoints {
     Vector at(const Point3& p) const { return WholePoints::at(p.data()); }
 };
 
-/// Of a distance: numerator / denominator.
+/// The square of a distance: numerator / denominator.
 struct Square {
     Number numerator, denominator = 1;
 };
@@ -159,8 +159,8 @@ double distance_to(const Point3& p, const NearFeature& f) {
     const Lattice lattice(p, {&f});
     Square s = square_of(lattice, p, f);
     if (s.numerator == 0) return 0;
-    // floor(numerator 4^shift / denominator) has 124 to 126 bits, its root 62 or 63. What was cut off, of either, is
-    // one more bit at the end that is not zero: it decides ties, and nothing else.
+    // floor(numerator 4^shift / denominator) has 124 to 126 bits, its root 62 or 63. The part that was cut off, of
+    // either, counts as one more bit at the end that is not zero: it decides ties, and nothing else.
     const int excess = static_cast<int>(msb(s.numerator)) - static_cast<int>(msb(s.denominator));
     const int shift = (125 - excess) >> 1;
     (shift >= 0 ? s.numerator : s.denominator) <<= static_cast<unsigned>(2 * std::abs(shift));

@@ -13,7 +13,7 @@ namespace barycert::locate {
 
 using Point3 = std::array<double, 3>;  ///< in 2D z = 0
 
-/// What the nearest point lies in the relative interior of: an open face of a cell. The nearest point is the orthogonal
+/// The open face of a cell in whose relative interior the nearest point lies. The nearest point is the orthogonal
 /// projection to what its corners span.
 struct NearFeature {
     int count = 0;                                 ///< corners: 1 to 3
@@ -26,7 +26,7 @@ struct NearFeature {
         nodes[i] = node;
         std::copy_n(point, d, at[i].begin());
     }
-    /// Of what its corners span, if they are two or three, in space.
+    /// The simplex that its corners span, if they are two or three, in space.
     Simplex simplex() const { return count == 3 ? Simplex::triangle3d : Simplex::segment; }
     std::array<double, 9> vertices() const {
         std::array<double, 9> all{};
@@ -35,7 +35,7 @@ struct NearFeature {
     }
 };
 
-/// Of these nodes, -1 where there are fewer. `points`: with d coordinates each.
+/// Makes the feature of these nodes, -1 where there are fewer. `points`: with d coordinates each.
 inline NearFeature near_feature(const std::array<Mesh::Index, 3>& nodes, const std::vector<double>& points,
                                 std::size_t d) {
     NearFeature f;
@@ -70,15 +70,15 @@ struct FlatCorners {
 };
 FlatCorners corners_along(const std::array<const double*, 3>& at);
 
-/// The corners of the vertex or edge nearest to p, a bit each. Precondition for these: the triangle has no area.
+/// The corners of the vertex or edge nearest to p, a bit each. Both require: the triangle has no area.
 unsigned nearest_of_flat(const std::array<const double*, 3>& at, const double* p);
-/// Of that on which p lies; 0 if it lies on none.
+/// The same for the vertex or edge on which p lies; 0 if it lies on none.
 unsigned part_of_flat(const std::array<const double*, 3>& at, const double* p);
 
 /// -1, 0, 1 as p is nearer to the projection on f than to that on g, as near, or farther.
 int compare_distances(const Point3& p, const NearFeature& f, const NearFeature& g);
 
-/// Of p to its projection, rounded to nearest; infinite where that is.
+/// The distance of p to its projection, rounded to nearest; infinite where that is.
 double distance_to(const Point3& p, const NearFeature& f);
 
 /// The weights of the projection of p on f, each correctly rounded.

@@ -11,18 +11,18 @@ namespace barycert::locate {
 class MappedCells;
 
 /// Boxes whose numbers are coordinates of nodes, unrounded: those of eight neighbouring cells, in the order of the
-/// index, then of eight such boxes, up to one. Those of the cells themselves are made when they are asked for: 7 bytes
+/// index, then of eight such boxes, up to one. Boxes of the cells themselves are made when they are asked for: 7 bytes
 /// a cell in all. The whole numbers of CellTree would not do: from far away, a difference of 2^-31 of the mesh in depth
 /// outweighs all that distinguishes cells sideways.
 class NearestTree {
 public:
     static constexpr std::size_t fan = 8;
 
-    /// Without cells that have maps. Precondition: there is a cell. Time O(cells).
+    /// Without cells that have maps. Requires: there is a cell. Time O(cells).
     explicit NearestTree(const CellIndex& index, const MappedCells* mapped = nullptr);
 
     std::size_t levels() const { return begin_.size() - 1; }
-    /// Of a level, the least one 0.
+    /// The number of boxes on a level; the lowest level is 0.
     std::size_t count(std::size_t level) const { return begin_[level + 1] - begin_[level]; }
     const Box& box(std::size_t level, std::size_t i) const { return boxes_[begin_[level] + i]; }
     std::size_t bytes() const { return boxes_.size() * sizeof(Box); }
@@ -43,7 +43,7 @@ struct NearestWork {
     std::uint64_t comparisons = 0;  ///< in integers
 };
 
-/// As Locator::nearest, of cells or triangles in space, without those that have maps. Preconditions: coordinates are
+/// As Locator::nearest, of cells or triangles in space, without those that have maps. Requires: coordinates are
 /// finite; there is a cell.
 Nearest find_nearest(const CellIndex& index, const NearestTree& tree, const double* point, double limit,
                      NearestWork* work = nullptr, const MappedCells* mapped = nullptr);

@@ -25,7 +25,7 @@ namespace formulas = core::HWY_NAMESPACE;
 // bin, moved outward by as much, no point of the cell is in that bin. The half-spaces are those of the cell's box and
 // of its facets. `margin` is for all these, and for the roundings of the box.
 //
-// What is rounded in the equation of a facet: coordinates are relative to the lowest bin of the cell (off by a further
+// Rounding errors in the equation of a facet: coordinates are relative to the lowest bin of the cell (off by a further
 // 2^-30), so that all are at most E_k + 2 on axis k, E_k the extent of the cell. The equation is a sum of at most 12
 // products of such numbers, each with at most 10 roundings: it is off by less than 12 * 10 * 2 * 2^-53 P, P = prod (E_k
 // + 2). `slack` is 2^-40 P. A facet whose opposite corner is not clearly on one side bounds nothing.
@@ -183,7 +183,7 @@ private:
 
 template <std::size_t d>
 void mark(const CellIndex& index, const std::array<int, 3>& bits, bool with_facets, std::uint32_t* words) {
-    // What waits for this, waits in a lock: nothing else may be taken up here.
+    // Other threads wait for this in a lock, so this thread may take up nothing else here.
     base::isolated([&] {
         base::parallel_for(index.cell_count(), 2048, [&](std::size_t begin, std::size_t end) {
             Marks<d> marks(index, bits, with_facets, words);

@@ -12,7 +12,7 @@ namespace barycert::locate {
 class Occupancy {
 public:
     static constexpr int word_bits = 5;  ///< of them, bins along the first axis make a word
-    /// Of fewer cells one is as large, and takes as long to make, as of so many.
+    /// An occupancy of fewer cells is as large, and takes as long to make, as one of so many.
     static constexpr std::size_t least_cells = 64;
 
     /// How much it tells: `coarse`, from the boxes of cells alone, with bins about as large as cells; `fine`, with far
@@ -26,7 +26,7 @@ public:
     const std::uint32_t* words() const { return words_.data(); }
     std::size_t bytes() const { return words_.size() * sizeof(std::uint32_t); }
 
-    /// False: no cell holds the point. Precondition: the point lies in the box of the cells.
+    /// False: no cell holds the point. Requires: the point lies in the box of the cells.
     bool may_hold(const CellIndex& index, const double* point) const {
         const auto at = [&](std::size_t k) {
             return static_cast<std::size_t>(index.bins.quantizer().at(k, point[k]) >> (Quantizer::bits - bits_[k]));

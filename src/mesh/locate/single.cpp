@@ -8,7 +8,7 @@ namespace barycert {
 namespace locate {
 namespace {
 
-/// What a look at one cell tells, as a step of the walks on lanes does, whose proofs these are.
+/// Result of a look at one cell, as of a step of the walks on lanes, which have the proofs.
 struct Look {
     bool inside = false;  ///< certainly
     bool beyond = false;  ///< certainly, of the facet opposite to `face`

@@ -17,7 +17,7 @@ const ArrayKind* find(const std::vector<ArrayKind>& kinds, const ArrayKind& like
     return nullptr;
 }
 
-// What differs; empty if nothing does.
+// Says what differs; empty if nothing does.
 std::string difference(const std::vector<ArrayKind>& mine, const std::vector<ArrayKind>& theirs) {
     for (const ArrayKind& kind : theirs) {
         const ArrayKind* const own = find(mine, kind);

@@ -11,7 +11,7 @@ struct Points {
     std::function<void(std::size_t, double*)> at;  ///< sets the three coordinates of a point; they need not be finite
 };
 
-/// What an engine has of each point, as bytes: of this rank's points first, then of those that it is asked for.
+/// Data that an engine has of each point, as bytes: first of this rank's points, then of those that it is asked for.
 class Tuples {
 public:
     virtual ~Tuples() = default;
@@ -40,7 +40,7 @@ public:
     /// whole mesh; empty: as they come, after those of lower ranks.
     Status swap_values(std::span<const Mesh::Index> owners, const std::vector<std::int64_t>& numbers,
                        const Tuples& tuples);
-    /// Sets tuples of this rank's points that others own, and valid[point] to 1. Of this rank alone.
+    /// Sets tuples of this rank's points that others own, and valid[point] to 1. Called by this rank alone.
     void merge(Tuples& tuples, char* valid);
 
     int ranks_with_cells() const { return ranks_with_cells_; }

@@ -1,4 +1,4 @@
-/// What the ranks of a job tell each other, so that none waits for a message that never comes.
+/// Exchange of messages between the ranks of a job, such that none waits for a message that never comes.
 ///
 /// Every rank calls the same functions in the same order. Between them each works for itself, in `attempt`, and then
 /// all `agree` on whether it went well everywhere. Memory for messages is taken there, too: sizes go before contents.
@@ -14,8 +14,8 @@
 namespace barycert::pieces {
 
 /// How ranks reach each other: MPI, threads, or whatever an engine has. All ranks call the same function at the same
-/// time; but `send` and `receive` are of two ranks alone. No call needs memory of its own. Of one rank alone none is
-/// called but rank() and size().
+/// time; but `send` and `receive` are of two ranks alone. No call needs memory of its own. With one rank alone, only
+/// rank() and size() are called.
 class Communicator {
 public:
     virtual ~Communicator() = default;
@@ -58,7 +58,7 @@ struct Parcels {
     std::size_t count() const { return begin.size() - 1; }
     std::size_t size(std::size_t k) const { return begin[k + 1] - begin[k]; }
     std::span<const T> of(std::size_t k) const { return std::span<const T>(values).subspan(begin[k], size(k)); }
-    /// What was added to `values` since the last call is for the next partner.
+    /// Ends what is for this partner: all that was added to `values` since the last call. The rest is for the next.
     void close() { begin.push_back(values.size()); }
 };
 
@@ -90,7 +90,7 @@ public:
         ranks_.gather(std::as_bytes(std::span(&mine, 1)), std::as_writable_bytes(std::span(all)));
         gathered_ += sizeof(T) * all.size();
     }
-    /// Those of that rank; those of others are replaced, after room for them was found everywhere.
+    /// Sends that rank's bytes to all. Replaces those of the others after room for them was found everywhere.
     Status broadcast(std::vector<unsigned char>& bytes, int from);
 
     /// Whom this rank exchanges messages with, in the order in which it does; each of them names this rank, too.

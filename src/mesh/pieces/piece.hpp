@@ -62,7 +62,7 @@ struct Closest {
     std::array<double, 4> weights{};  ///< of the nearest point in a straight cell, in the order of its vertices
 };
 
-/// What a data set is to be taken for, if it is a piece of a mesh: the pieces of one mesh are taken alike.
+/// How to take a data set that is a piece of a mesh: the pieces of one mesh are taken alike.
 struct Shape {
     int dimension = 0;              ///< of the cells that count; 0: the highest of its own
     int normal = -1;                ///< polygons: the axis across which their plane lies; -1: any
@@ -100,10 +100,10 @@ private:
     }
 };
 
-/// What is wrong with a data set of such cells alone.
+/// Fault of a data set that has such cells alone.
 inline constexpr const char* only_lower = "it has no cells but points and lines";
 
-/// What a rank knows before its piece is read.
+/// Facts that a rank knows before its piece is read.
 struct PieceFacts {
     int dimension = -1;        ///< the highest of its cells; -1: it has none
     bool numbered = false;     ///< its cells have numbers in the whole mesh

@@ -1,4 +1,4 @@
-/// What a cell holds of a cut, by the states of its nodes: a table made when compiling.
+/// The pieces of a cut in a cell, by the states of its nodes: a table made when compiling.
 #pragma once
 
 #include <array>

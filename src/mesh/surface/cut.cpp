@@ -28,7 +28,7 @@ struct CrossedEdge {
 struct ExactCrossing {
     Integer of_in, of_out;
 
-    /// The number that is `in` and `out` at the ends, where g is zero, correctly rounded. Precondition: finite numbers.
+    /// The number that is `in` and `out` at the ends, where g is zero, correctly rounded. Requires: finite numbers.
     double value(double in, double out) const {
         // The weights of the ends are of_out / (of_in + of_out) and of_in / (of_in + of_out).
         const Unit unit{in, out};
@@ -82,8 +82,8 @@ public:
 
     State state(std::size_t node) const {
         // Three products and three sums, each rounded by u of at most M (1 + 4 u), M the sum of the magnitudes of the
-        // terms: an error of 4 u M and a little. Underflow loses 2^-1075 a product, and as much in the bound. Of what
-        // is infinite or NaN the comparisons are false.
+        // terms: an error of 4 u M and a little. Underflow loses 2^-1075 a product, and as much in the bound.
+        // Comparisons with infinity or NaN are false.
         const double* const x = points_ + 3 * node;
         double height = plane_.offset, magnitude = std::fabs(plane_.offset);
         for (std::size_t k = 0; k < 3; ++k) {

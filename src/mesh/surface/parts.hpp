@@ -1,4 +1,4 @@
-/// What cuts and boundaries share: threads, what they require of their input, orientations, cells cut, crossings,
+/// Steps that cuts and boundaries share: threads, what they require of their input, orientations, cells cut, crossings,
 /// fields of cells.
 #pragma once
 
@@ -23,7 +23,7 @@ inline bool indices_fit(std::span<const Mesh::Index> indices, std::size_t nodes)
     return indices.empty() || max < nodes;
 }
 
-/// What to tell where they are not.
+/// The error for indices that are no nodes.
 Error bad_index();
 
 /// Returns work(), which returns a Result, if the input is good: on base::threads_of(options.threads), in an exact
@@ -48,7 +48,7 @@ std::vector<double> take_rows(const std::vector<double>& from, std::size_t colum
 void take_rows(const std::vector<const Field*>& fields, const std::vector<Mesh::Index>& rows, std::size_t stride,
                std::vector<Field>& to);
 
-/// Of the cell with these corners: exact.
+/// The orientation of the cell with these corners: exact.
 inline Sign orientation(const Mesh& mesh, const Mesh::Index* corners) {
     const auto at = [&](int i) { return mesh.point(corners[i]); };
     return mesh.dimension == 2 ? orient2d(at(0), at(1), at(2)) : orient3d(at(0), at(1), at(2), at(3));
@@ -61,7 +61,7 @@ struct States {
     bool all_known = true;
 };
 
-/// What mixed_cells returns if a corner is no node.
+/// Returned by mixed_cells if a corner is no node.
 inline constexpr std::size_t no_node = ~std::size_t{0};
 
 /// Which of `count` < 2^32 cells of n corners have corners in the set and corners that are not, ascending in

@@ -34,7 +34,7 @@ constexpr std::size_t block_size = std::size_t{1} << 13;
 constexpr std::int8_t not_asked = 2;
 
 /// 1 or -1 as an even or an odd permutation brings the corners to: corner i, then the others in ascending order.
-/// Precondition: all different.
+/// Requires: all different.
 int parity(const Index* corners, std::size_t n, std::size_t i) {
     int sign = i % 2 == 0 ? 1 : -1;
     for (std::size_t j = 0; j < n; ++j) {
@@ -106,7 +106,7 @@ struct LevelFacet {
     auto operator<=>(const LevelFacet&) const = default;
 };
 
-/// Cells of the set, ascending, that have a facet where g is 0, and no other cell has it. Precondition: tetrahedra,
+/// Cells of the set, ascending, that have a facet where g is 0, and no other cell has it. Requires: tetrahedra,
 /// whose corners are nodes.
 std::vector<Index> cells_at_ends(const Mesh& mesh, const States& states) {
     std::vector<Index> cells;

@@ -46,8 +46,8 @@ void parallel_for_each(std::size_t count, std::size_t grain, const Work& work) {
     });
 }
 
-/// What join(all, part) makes of the parts of such ranges, each made by work(begin, end, part) from a copy of `empty`.
-/// Parts come in any order, which must not show in what join() makes; joining `empty` changes nothing.
+/// Joins the parts of such ranges by join(all, part); each part is made by work(begin, end, part) from a copy of
+/// `empty`. Parts come in any order, which must not show in the result; joining `empty` changes nothing.
 template <class Part, class Work, class Join>
 Part parallel_reduce(std::size_t count, std::size_t grain, const Part& empty, Work work, Join join) {
     std::mutex mutex;

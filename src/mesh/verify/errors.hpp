@@ -26,7 +26,7 @@ struct ValueError {
     }
 };
 
-/// |a - b| / range, without overflow on the way. Precondition: range > 0, finite.
+/// |a - b| / range, without overflow on the way. Requires: range > 0, finite.
 inline double relative_error(double a, double b, double range) {
     const double difference = std::fabs(a - b);
     if (!std::isinf(difference)) return difference / range;

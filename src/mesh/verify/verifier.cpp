@@ -12,7 +12,7 @@
 namespace barycert {
 namespace {
 
-/// What errors of a component are relative to.
+/// The number that errors of a component are relative to, and its kind.
 std::pair<double, RelativeTo> range_of(const Field& field, std::size_t component) {
     const auto components = static_cast<std::size_t>(field.components);
     double low = std::numeric_limits<double>::infinity(), high = -low, size = 0;
@@ -28,7 +28,8 @@ std::pair<double, RelativeTo> range_of(const Field& field, std::size_t component
     return size > 0 ? std::pair(size, RelativeTo::magnitude) : std::pair(1.0, RelativeTo::one);
 }
 
-/// What ranges of lengths are those of. Gradients on cells of second order have no numbers at nodes: none.
+/// The lengths at nodes, whose range is that of the field of lengths. Gradients on cells of second order have no
+/// numbers at nodes: none.
 Field lengths_at_nodes(const sample::AtPoint& late) {
     Field lengths;
     const auto n = static_cast<std::size_t>(late.field->components);

@@ -215,7 +215,7 @@ class Mesh(GivenBack):
         if told:
             warnings.warn(f"{file}: {told}" if file else told, stacklevel=3)
 
-    # What it is made of.
+    # Parts of the mesh.
 
     dimension: int = forwarded("_core.dimension", "2: triangles in the plane; 3: tetrahedra.")
     points: np.ndarray = forwarded("_core.points", "(n, d) float64, the nodes; cannot be written to.")
@@ -274,7 +274,7 @@ class Mesh(GivenBack):
         index if there is none. `check` says why not."""
         return _core.certified(self._core)
 
-    # What can be asked of it.
+    # Questions to the mesh.
 
     def locate(
         self, points: Any, *, nonfinite_points: str = "error", threads: int = 0, progress: Progress = None,
@@ -524,7 +524,7 @@ class Mesh(GivenBack):
         values = ask(sampler)
         members: List[Tuple[str, Any, Tuple[int, ...]]] = []
         for name, components in sampler.fields:
-            # Of two fields with one name that of the cells comes second.
+            # If two fields have one name, that of the cells comes second.
             second = any(name == member[0] for member in members)
             data = self._cell_data if second or name not in self._point_data else self._point_data
             members.append((f"cell:{name}" if second else name, np.float64, data._shape(name, components)))

@@ -1,4 +1,4 @@
-// What an audit covers, and that the same seed finds the same.
+// The cases that an audit covers; the same seed finds the same.
 
 #include <algorithm>
 #include <filesystem>

@@ -91,7 +91,7 @@ TEST_P(Beginnings, Decide) {
     }
 }
 
-/// Of a file that began well: nothing was written after that.
+/// Files that began well, and to which nothing was written after that.
 TEST(GoodBeginnings, OfZerosAreToldAtOnce) {
     const Scratch scratch;
     const How here{.folder = scratch.folder()};

@@ -268,7 +268,7 @@ TEST(Check, TheRepairedCopyIsCheckedAndTold) {
     EXPECT_EQ(fix["dropped"][0]["why"], "duplicate_cell");
     EXPECT_EQ(fix["fields"][0]["largest_difference"], 0.5);
     EXPECT_EQ(read_file(broken + ".node"), twin_nodes) << "the input stays";
-    // What has no one answer stays, and the exit code says so.
+    // A defect without a single right repair stays, and the exit code says so.
     const Ended over = run(check(put_overlapping(scratch), {"--fix", scratch.path("over2")}));
     EXPECT_EQ(over.code, 1);
     EXPECT_TRUE(contains(over.out, "What remains in the copy\n")) << over.out;

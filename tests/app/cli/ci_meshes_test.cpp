@@ -1,4 +1,4 @@
-// What check and verify say to systems that run them: exit code, JUnit, SARIF and annotations tell the same.
+// Reports of check and verify to systems that run them: exit code, JUnit, SARIF and annotations tell the same.
 
 #include <gtest/gtest.h>
 

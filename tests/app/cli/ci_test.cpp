@@ -1,4 +1,4 @@
-// What the audit says to systems that run it: exit code, JUnit, SARIF and annotations tell the same.
+// Reports of the audit to systems that run it: exit code, JUnit, SARIF and annotations tell the same.
 
 #include <gtest/gtest.h>
 

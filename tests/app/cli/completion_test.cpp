@@ -26,7 +26,7 @@ public:
         call.insert(call.end(), {"--completion", "bash"});
         const Ended made = run(call);
         EXPECT_EQ(made.code, 0) << made.err;
-        // What bash does on TAB, for words that are given as they are split by it.
+        // Does what bash does on TAB, for words that are given as bash splits them.
         driver_ = scratch_.put("driver.bash", made.out +
                                                   "COMP_WORDS=(\"$@\") COMP_CWORD=$(($# - 1))\n"
                                                   "spec=$(complete -p \"$1\")\n"

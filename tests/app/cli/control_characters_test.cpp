@@ -1,4 +1,4 @@
-// What comes from files, names and arguments cannot act on a terminal: it is shown escaped.
+// Texts from files, names and arguments cannot act on a terminal: they are shown escaped.
 
 #include <cctype>
 #include <filesystem>

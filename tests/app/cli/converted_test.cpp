@@ -181,7 +181,7 @@ TEST_F(Converted, WhatCannotBeReadIsAnError) {
     EXPECT_TRUE(contains(barycert({"check", "b.inp"}).err, "not a mesh of Abaqus"));
     scratch_.put("c.vol", "mesh3d\n");
     EXPECT_EQ(barycert({"check", "c.vol"}).code, 2);
-    // What is wrong with the mesh is told of the file itself.
+    // Faults of the mesh are told of the file itself.
     scratch_.put("q.inp", "*NODE\n1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,5\n*ELEMENT, TYPE=CPS4\n1, 1,2,3,4\n");
     const Ended off_plane = barycert({"render", "mesh", "q.inp", "--output", "q.png"});
     EXPECT_EQ(off_plane.code, 2);

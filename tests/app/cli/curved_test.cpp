@@ -233,7 +233,7 @@ TEST(Curved, ADefectNamesStraightenedSidesAsItsCause) {
     EXPECT_TRUE(found) << check.out;
 }
 
-// What Gmsh writes: its curved cells are found; its straight ones are off by digits alone.
+// Gmsh's curved cells are found; its straight ones are off by digits alone.
 TEST(Curved, MeshesOfGmsh) {
     const Scratch scratch;
     if (run_shell("command -v gmsh", {.folder = scratch.folder()}).code != 0) GTEST_SKIP() << "no gmsh here";

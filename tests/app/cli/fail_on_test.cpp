@@ -104,7 +104,7 @@ TEST(FailOn, HelpListsTheseRulesAndNoOthers) {
     std::set<std::string> listed;
     for (std::string word; words >> word;) listed.insert(word);
     Words rules = all_rules();
-    // Of kernels in a process of their own: contained_test.cpp.
+    // Rules for kernels in a process of their own: contained_test.cpp.
     rules.insert(rules.end(),
                  {"crashed", "raised", "hung", "out_of_bounds", "forked", "changed_environment", "printed"});
     EXPECT_EQ(listed, std::set<std::string>(rules.begin(), rules.end()));

@@ -1,4 +1,4 @@
-/// What the program's own --help lists: the judge of manual pages and completions.
+/// The options that the program's own --help lists: the judge of manual pages and completions.
 #pragma once
 
 #include <vector>

@@ -289,7 +289,7 @@ TEST(RenderSlice, ByOneAxis) {
                      "--plane: expected an axis and where, such as z=0.5, or NX,NY,NZ,D");
 }
 
-/// What sample calls a quantity is one in pictures, and so is what a refusal suggests.
+/// A quantity of sample is one in pictures, too, and so is a name that a refusal suggests.
 TEST(Render, NamesOfQuantitiesAreThoseOfSample) {
     const Scratch scratch;
     const std::string two = put_two_cells(scratch), png = scratch.path("p.png"), vtp = scratch.path("s.vtp");

@@ -112,7 +112,7 @@ TEST_F(Fields, OfNodesWithoutPartMayBeNotFinite) {
     }
     const Ended told = run(plus(command, {scratch.path("rows.csv"), "--json", "-"}));
     EXPECT_EQ(parse(told.out)["not_finite"], parse(R"([{"field": "u", "of": "nodes", "count": 3, "values": 5}])"));
-    // Of a field that is not sampled nothing is said.
+    // Nothing is said of a field that is not sampled.
     const Ended other = run({"sample", two, "--points", at, "--field", "u=" + file, "--fields", "point:attribute0",
                              "--output", scratch.path("rows.csv"), "--json", "-"});
     EXPECT_TRUE(parse(other.out)["not_finite"].empty()) << other.out;

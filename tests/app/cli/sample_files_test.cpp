@@ -206,7 +206,7 @@ TEST_P(SampleKilled, WhileItWrites) {
     writer.join();
     EXPECT_EQ(r.signal, GetParam());
     EXPECT_EQ(read_file(out), "old");
-    // What SIGKILL leaves is beside the file, not in its place.
+    // SIGKILL may leave a file beside the target, never in its place.
     if (GetParam() != SIGKILL) {
         EXPECT_EQ(scratch.names(), (Words{"p.csv", "r.csv"}));
     }

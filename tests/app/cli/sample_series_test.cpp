@@ -68,7 +68,7 @@ TEST_F(Series, BecomeAFileAStep) {
         EXPECT_EQ(json["points"], 6);
         EXPECT_EQ(json["rows"], 6);
     }
-    // Of every cell that holds a point, and from a map, which is saved by the way.
+    // The same for every cell that holds a point, and from a map, which is saved by the way.
     EXPECT_EQ(run_there({"--field", "T@step-*.txt", "--output", "all-{step}.csv", "--on-boundary", "all", "--save-map",
                          "a.map"})
                   .code,

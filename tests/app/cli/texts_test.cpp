@@ -1,4 +1,4 @@
-// What is said where something is not as it should be: short, in the order of the command, with a remedy that works.
+// Messages about what is not as it should be: short, in the order of the command, with a remedy that works.
 
 #include <sys/stat.h>
 

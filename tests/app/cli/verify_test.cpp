@@ -156,7 +156,7 @@ TEST(Verify, ErrorsOfTheSizeOfAnIterationAreSaidToBe) {
     const std::string mesh = ball("ball.vtu", straight);
     EXPECT_TRUE(said(mesh, put_iterated(scratch, 3e-5)));
     EXPECT_TRUE(said(mesh, put_iterated(scratch, 3e-7)));
-    // What it says to do is right.
+    // The remedy that it names works.
     EXPECT_EQ(run({"verify", mesh, "--results", put_iterated(scratch, 3e-5), "--tolerance", "1e-4"}).code, 0);
     // Larger ones, few among exact ones, linear cells, curved ones.
     EXPECT_FALSE(said(mesh, put_iterated(scratch, 3e-4)));

@@ -77,7 +77,7 @@ TEST(VtkFiles, SurfacesCarryTheNumbersOfTheFile) {
     EXPECT_EQ(text.substr(text.find('\n', array) + 1, 1), "2");
 }
 
-/// What is written with any data comes back, and the values are the same.
+/// Files written with any data are read back, and the values are the same.
 TEST(VtkFiles, EveryWayOfWritingThemReadsBack) {
     const Scratch scratch;
     const std::string points = scratch.put("p.csv", "0.2,0.3,0.4\n0.5,0.5,0.5\n9,9,9\n0.1,0.7,0.6\n");

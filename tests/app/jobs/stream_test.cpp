@@ -90,7 +90,7 @@ protected:
     }
     static void TearDownTestSuite() { folder_.reset(); }
 
-    /// What was written, and the error if there is one.
+    /// Returns what was written, and the error if there is one.
     static std::pair<Written, std::string> go(const How& how, SampleReport* summary = nullptr,
                                               const std::function<void(const JobProgress&)>& progress = {}) {
         SamplingJob job;

@@ -37,7 +37,7 @@ std::size_t count(const std::string& text, std::string_view part) {
     return n;
 }
 
-/// Of each histogram: bars and what is counted apart, together.
+/// Cells in each histogram: in bars and counted apart, together.
 std::vector<std::uint64_t> cells_in_histograms(const std::string& page) {
     std::vector<std::uint64_t> sums;
     static const std::regex bar(" to [^:<]*: ([0-9,]+) cells?</title>"), counted(": ([0-9,]+)");
@@ -104,7 +104,7 @@ TEST(CheckHtml, SaysWhatIsWrongBeforeAllAndPraisesNothingElse) {
     EXPECT_NE(of_flat.find("no cell in a bar", shapes), std::string::npos);
 }
 
-/// Of the first picture behind `at`: pixels of each colour.
+/// Pixels of each colour in the first picture behind `at`.
 std::map<Rgba, std::size_t> colours_of_picture(const std::string& page, std::size_t at) {
     constexpr std::string_view head = "data:image/png;base64,",
                                letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";

@@ -1,4 +1,4 @@
-// What `./run flags` and `./run systems` wrote: read, refused, and on the page.
+// Output of `./run flags` and `./run systems`: read, refused, and on the page.
 
 #include <gtest/gtest.h>
 #include <unistd.h>

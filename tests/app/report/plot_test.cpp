@@ -73,7 +73,7 @@ void expect_readable(const std::string& svg) {
     }
 }
 
-/// Of the kernels in the legend.
+/// The kernels in the legend.
 std::set<std::string> shown(const std::string& svg) {
     std::set<std::string> names;
     const std::vector<Text> all = texts(svg);

@@ -80,7 +80,7 @@ TEST_F(Failures, Pipes) {
     ASSERT_EQ(mkfifo((folder_.path("pipe.node")).c_str(), 0600), 0);
     const std::string apart = folder_.put("pipe.poly", "0\n6 0\n" + side_rows(0, "1\n", "") + "0\n");
     expect_failure(apart, "pipe.node: cannot read the file");
-    // What is written stays in the pipe as long as somebody has it open for reading.
+    // Bytes that are written stay in the pipe as long as somebody has it open for reading.
     const int reader = open((folder_.path("pipe.off")).c_str(), O_RDONLY | O_NONBLOCK);
     const int writer = open((folder_.path("pipe.off")).c_str(), O_WRONLY);
     const std::string off = cube_off();

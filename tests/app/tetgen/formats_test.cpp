@@ -95,7 +95,7 @@ TEST(Formats, PolyWithNodesApart) {
     EXPECT_EQ(mesh.point_fields[0].data[7], 0.7);
     EXPECT_EQ(mesh.point_markers[7], 5);
 
-    // What the .poly's own header says of attributes is not said of the other file, which ends before that word.
+    // The .poly's own header says nothing about attributes of the other file, which ends before that word.
     std::string rows;
     for (std::size_t i = 0; i < 8; ++i) {
         const auto& [x, y, z] = cube_nodes[i];
@@ -160,7 +160,7 @@ TEST(Formats, NumbersAreReadRightlyOrRefused) {
     }
 }
 
-// What was read can be written again to the same bytes: no bit of a coordinate is lost.
+// Meshes that were read are written again to the same bytes: no bit of a coordinate is lost.
 TEST(Formats, OutputRoundTrip) {
     const Scratch folder;
     const std::string input = folder.put("cube.poly", cube_poly(1));

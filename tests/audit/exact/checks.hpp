@@ -28,7 +28,7 @@ inline void expect_same(const OracleAnswer& a, const OracleAnswer& b) {
     expect_same_bits(a.value, b.value, "value");
 }
 
-/// What the oracle should answer, from the exact weights of the second path.
+/// The answer that the oracle should give, from the exact weights of the second path.
 inline OracleAnswer expected_answer(const Case& c, const std::optional<std::vector<second_path::Q>>& exact) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     OracleAnswer a;

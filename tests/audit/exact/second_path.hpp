@@ -55,7 +55,7 @@ inline double nearest(const Q& x) {
     return x < 0 ? -r : r;
 }
 
-/// sqrt(x) rounded to nearest, by comparing squares. Precondition: x >= 0.
+/// sqrt(x) rounded to nearest, by comparing squares. Requires: x >= 0.
 inline double nearest_root(const Q& x) {
     if (x == 0) return 0.0;
     return nearest_positive([&](const Q& m) { return cmp(x, Q(m * m)); });

@@ -67,7 +67,7 @@ TEST(Catalogue, GlobSelects) {
 #endif
 }
 
-/// Those that declare do so where all vertices coincide; the others return NaN or infinity, but for full-lu, whose
+/// Kernels that declare do so where all vertices coincide; the others return NaN or infinity, but for full-lu, whose
 /// rank decision turns a singular system into finite weights.
 TEST(Catalogue, CoincidentVerticesAreDeclaredOrNotFinite) {
     for (const Kernel& k : catalogue()) {

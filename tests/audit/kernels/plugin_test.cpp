@@ -123,7 +123,7 @@ protected:
     std::filesystem::path folder_;
 };
 
-// What dlopen maps beyond the end of a file ends the process when it is touched.
+// Pages that dlopen maps beyond the end of a file end the process when they are touched.
 TEST_F(DamagedPlugin, CutAnywhereIsRefused) {
     EXPECT_EQ(load_apart(put(whole_), ""), Ending::loaded);
     EXPECT_EQ(load_apart(put(""), "found an empty file"), Ending::refused);

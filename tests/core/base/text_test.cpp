@@ -118,7 +118,7 @@ TEST(ParseDouble, Refuses) {
     EXPECT_EQ(base::parse_double(std::string_view("1\0", 2)), std::nullopt);
 }
 
-// What is finite as written is never turned into infinity; underflow is rounding.
+// A number that is finite as written never becomes infinity; underflow is rounding.
 TEST(ParseDouble, OutOfRange) {
     for (const char* text : {"1e309", "-1e309", "1.7976931348623159e308", "1e99999999999999999999", "0x1p1024",
                              "0x1p99999999999", "0x1p-1100", "0x1p-99999999999"}) {

@@ -125,7 +125,7 @@ inline std::string describe(const Subject& s, std::uint64_t index, const Case& c
     return text;
 }
 
-/// What came of a comparison.
+/// Results of a comparison.
 struct Tally {
     std::uint64_t cases = 0;
     std::uint64_t disagreements = 0;
@@ -172,7 +172,7 @@ struct Verdict {
     }
 };
 
-/// The signs by CGAL::orientation of a kernel. Precondition: triangle or tetrahedron.
+/// The signs by CGAL::orientation of a kernel. Requires: triangle or tetrahedron.
 template <class Kernel>
 Verdict cgal_verdict(const Case& c) {
     Verdict v;

@@ -11,7 +11,7 @@ using Corners = std::array<double, 6>;  ///< x and y of three vertices
 /// Whether the triangle covers pixel (i, j).
 bool judge_covers(const Corners& triangle, std::int32_t i, std::int32_t j);
 
-/// The exact value at the centre of pixel (i, j), rounded once. Precondition: not degenerate.
+/// The exact value at the centre of pixel (i, j), rounded once. Requires: not degenerate.
 double judge_value(const Corners& triangle, const std::array<double, 3>& values, std::int32_t i, std::int32_t j);
 
 /// |value - exact value|, rounded up or down by one ulp at most.

@@ -43,7 +43,7 @@ int channels_of(int colour_type) {
     }
 }
 
-/// Of a sample of `depth` bits the 8 bits nearest to it.
+/// The 8 bits nearest to a sample of `depth` bits.
 std::uint8_t to_byte(unsigned value, int depth) {
     const double most = (1U << depth) - 1;
     return static_cast<std::uint8_t>(255 * value / most + 0.5);

@@ -13,7 +13,7 @@ inline Rational magnitude(const Rational& x) {
     return x < Rational(0) ? -x : x;
 }
 
-/// x is the double nearest to the exact number, ties to even. Precondition: the exact number is below 2^1023.
+/// x is the double nearest to the exact number, ties to even. Requires: the exact number is below 2^1023.
 inline bool is_nearest(double x, const Rational& exact) {
     if (!std::isfinite(x)) return false;
     const double below = std::nextafter(x, -HUGE_VAL), above = std::nextafter(x, HUGE_VAL);

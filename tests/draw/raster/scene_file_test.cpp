@@ -1,5 +1,5 @@
-// Scene files: what they say is what is drawn; anything else is an Error, and never more than that. What each error
-// says is tested on the command line.
+// Scene files: the picture is what they say. Anything else is an Error, and never more than that. The words of each
+// error are tested on the command line.
 #include <gtest/gtest.h>
 
 #include "barycert/scene.hpp"

@@ -17,7 +17,7 @@ std::uint64_t sum_of(const RenderCounts& n) {
     return n.drawn + n.outside + n.degenerate + n.between_pixels;
 }
 
-/// Triangle t of the scene as rows of clip positions and attributes. Precondition: the matrix is the identity.
+/// Triangle t of the scene as rows of clip positions and attributes. Requires: the matrix is the identity.
 std::vector<double> rows_of(const Scene& s, std::size_t t) {
     std::vector<double> rows;
     for (std::size_t c = 0; c < 3; ++c) {

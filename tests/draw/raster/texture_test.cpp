@@ -31,7 +31,7 @@ Rational floor_of(const Rational& x) {
     return Rational(quotient);
 }
 
-/// The texel by the rules of the header, in rationals. Precondition: u is finite.
+/// The texel by the rules of the header, in rationals. Requires: u is finite.
 int judged_texel(double u, int size, Wrap wrap) {
     Rational place(u);
     if (wrap == Wrap::clamp) {

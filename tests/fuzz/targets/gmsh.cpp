@@ -69,7 +69,8 @@ BARYCERT_FUZZ_TARGET(gmsh) {
     const bool binary = input.size() % 2 != 0;
     const GmshWriteOptions options{
         input.size() % 4 < 2 ? GmshWriteOptions::Version::v41 : GmshWriteOptions::Version::v22, binary};
-    // What is left out of a file gives others other numbers: the labels of a second writing are those of the first.
+    // Parts that are left out of a file give others other numbers: the labels of a second writing are those of the
+    // first.
     const Mesh once = written(*mesh, options), twice = written(once, options);
     const Payload payload = binary ? Payload::kept : Payload::lost;
     expect_same(once, twice, payload);

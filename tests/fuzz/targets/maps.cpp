@@ -76,7 +76,7 @@ BARYCERT_FUZZ_TARGET(maps) {
     Result<MapReader> again = MapReader::open(out, mesh);
     expect(bool(again), "a map that was written is not read");
     const Result<Table> same = all_rows(*again, 1000);
-    // Of points that are in no cell coordinates may be NaN.
+    // Points that are in no cell may have coordinates that are NaN.
     const auto same_bits = [](double x, double y) {
         return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y);
     };

@@ -1,4 +1,4 @@
-// What other systems and formulas under compiler flags answered: JSON for the page of an audit.
+// Answers of other systems, and of formulas under compiler flags: JSON for the page of an audit.
 #include "barycert/audit_report.hpp"
 #include "tests/fuzz/files.hpp"
 #include "tests/fuzz/target.hpp"

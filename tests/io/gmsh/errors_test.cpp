@@ -1,4 +1,4 @@
-// What is refused, in words.
+// Files that are refused, and the words.
 #include "tests/io/gmsh/msh_files.hpp"
 
 namespace barycert::testing {

@@ -27,7 +27,7 @@ namespace barycert::testing {
 
 enum class Form { text, little, big };
 
-/// What a file is to say.
+/// Contents of a file to write.
 struct Msh {
     struct Node {
         std::int64_t tag;

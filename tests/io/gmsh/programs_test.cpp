@@ -1,4 +1,5 @@
-// What Gmsh and meshio write is read, and what is written they read. Both are skipped where they are not installed.
+// Files that Gmsh and meshio write are read, and files that are written are read by them. Both are skipped where they
+// are not installed.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -188,7 +189,7 @@ std::vector<double> by_cells(const Mesh& mesh, const std::vector<Mesh::Index>& n
     return points;
 }
 
-/// What stands between backquotes.
+/// The commands between backquotes.
 std::vector<std::string> commands_in(const std::string& text) {
     std::vector<std::string> commands;
     for (std::size_t at = text.find('`'); at != std::string::npos;) {

@@ -1,4 +1,4 @@
-// What is read of a .msh file, the same from every version and form.
+// Contents of a .msh file, read the same from every version and form.
 #include <cmath>
 
 #include "tests/io/gmsh/msh_files.hpp"

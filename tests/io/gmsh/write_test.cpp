@@ -1,4 +1,4 @@
-// What is written is what is read, to the bit.
+// Written meshes are read back to the bit.
 #include <algorithm>
 #include <cmath>
 #include <limits>

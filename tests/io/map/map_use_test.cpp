@@ -1,4 +1,5 @@
-// What maps are for: located once, saved, read again, the rows have the same bits (law D1 of sampler.hpp).
+// Purpose of maps: points are located once, the map is saved and read again, and rows have the same bits (law D1 of
+// sampler.hpp).
 #include <cstring>
 
 #include "barycert/locator.hpp"

@@ -1,4 +1,4 @@
-// What is refused, and in what words.
+// Files that are refused, and the words.
 
 #include "tests/io/medit/medit_files.hpp"
 

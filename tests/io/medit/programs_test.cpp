@@ -1,4 +1,4 @@
-// What Gmsh and meshio write is read as meshio reads it. Skipped where they are not installed.
+// Files that Gmsh and meshio write are read as meshio reads them. Skipped where they are not installed.
 #include <cstdlib>
 #include <cstring>
 

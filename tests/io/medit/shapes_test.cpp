@@ -103,7 +103,7 @@ TEST(MeditShapes, SeveralOrders) {
     const Note* const note = find_note(*read, "2 cells of a higher order: they are taken by their corners");
     ASSERT_NE(note, nullptr);
     EXPECT_TRUE(note->important);
-    // Of one type and order 3, too.
+    // The same for cells of one type, and of order 3.
     std::vector<double> third{1, 2, 3, 5};
     third.resize(20, 9);
     third.push_back(4);

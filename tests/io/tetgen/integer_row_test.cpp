@@ -10,7 +10,7 @@
 namespace barycert::detail {
 namespace {
 
-/// What the general scanner makes of a row of five integers: the place after it, or nullptr.
+/// Scans a row of five integers by the general scanner: returns the place after it, or nullptr.
 const char* scan_generally(const char* at, const char* end, std::array<std::int64_t, 5>& values) {
     io::Scanner scanner{at, end};
     scanner.skip_blanks();

@@ -1,4 +1,4 @@
-// What is written is read again, bit for bit.
+// Written files are read again, bit for bit.
 #include <gtest/gtest.h>
 
 #include <rapidcheck/gtest.h>

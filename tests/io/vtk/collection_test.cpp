@@ -163,13 +163,13 @@ TEST(VtkCollections, AStepIsChosen) {
     EXPECT_EQ(no_number.error().expected, "a number from 0 to 3");
     ASSERT_FALSE(no_time);
     EXPECT_EQ(no_time.error().expected, "one of the times 0.5, 1, 3, 4");
-    // What is missing is named, and where it is named.
+    // The error names the file that is missing, and where it is named.
     const Result<Mesh> last = read({.last = true});
     ASSERT_FALSE(last);
     EXPECT_EQ(last.error().file, path);
     EXPECT_EQ(last.error().line, 4U);
     EXPECT_EQ(last.error().expected, folder / "none.vtu");
-    // Of what is no series no step is chosen.
+    // No step can be chosen where there is no series.
     put(folder / "m.pvtu", partitioned({"0.vtu"}));
     EXPECT_FALSE(read_mesh(folder / "m.pvtu", {.step = {.number = 0}}));
     EXPECT_FALSE(read_mesh(folder / "0.vtu", {.step = {.last = true}}));

@@ -36,7 +36,7 @@ vtkSmartPointer<vtkUnstructuredGrid> read_legacy_by_vtk(const std::string& path)
     return reader->GetOutput();
 }
 
-/// What VTK reads is what the mesh holds.
+/// VTK reads what the mesh holds.
 void expect_legacy_grid(vtkUnstructuredGrid* grid, const Mesh& mesh) {
     ASSERT_EQ(static_cast<std::size_t>(grid->GetNumberOfPoints()), mesh.point_count());
     ASSERT_EQ(static_cast<std::size_t>(grid->GetNumberOfCells()), mesh.cell_count());

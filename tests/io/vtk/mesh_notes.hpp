@@ -1,4 +1,4 @@
-/// What the tests of VTK's files share, with or without VTK.
+/// Helpers that the tests of VTK's files share, with or without VTK.
 #pragma once
 
 #include <string>

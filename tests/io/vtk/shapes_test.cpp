@@ -123,7 +123,7 @@ TEST(VtkShapes, HigherOrdersAreTakenByTheirCorners) {
     EXPECT_EQ(both->cells, (Nodes{0, 1, 2, 3, 1, 2, 3, 4}));
     EXPECT_EQ(both->cell_numbers, (Nodes{0, 2}));
     EXPECT_TRUE(both->mid_nodes.empty());
-    // Of one order they are the mesh's own.
+    // Mid-edge nodes of cells of one order are the mesh's own.
     const Result<Mesh> quadratic = read_text(cells_file(10, "24", "10", up_to(10)));
     ASSERT_TRUE(quadratic) << quadratic.error().message();
     EXPECT_TRUE(quadratic->shapes.types.empty());
@@ -428,7 +428,8 @@ TEST(VtkShapes, Images) {
     EXPECT_EQ(read_vtk_points(folder / "g.vti", 3).value(), image->points);
     EXPECT_EQ(mesh_files(folder / "g.vti"), Texts{folder / "g.vti"});
     EXPECT_TRUE(read_mesh(folder / "g.vti"));
-    // What has no increasing axes is listed: its third ones fall. So are ghosts, other planes, and grids of one file.
+    // Grids without increasing axes are listed: the third coordinates of these fall. So are ghosts, other planes, and
+    // grids of one file.
     for (const std::string& text : {vti, vtk}) {
         put(folder / "g.vtk", text);
         EXPECT_TRUE(read_mesh(folder / "g.vtk", {.list_grids = false})->is_listed());
@@ -576,7 +577,7 @@ TEST(VtkShapes, GridsThatAreNone) {
         SCOPED_TRACE(bad.text);
         expect_error(read_text(bad.text), "m", bad.line, bad.what, bad.expected, bad.found, nullptr);
     }
-    // Of another piece, or of several.
+    // Grids of another piece, or of several.
     std::string part = xml_grid("ImageData", "", "0 1 0 1 0 1", "");
     part.replace(part.find("<Piece Extent='0 1"), 18, "<Piece Extent='0 0");
     EXPECT_EQ(read_text(part).error().what, "the extent of the piece");

@@ -1,4 +1,4 @@
-/// What is written in every mode, as VTK's own readers see it.
+/// Files written in every mode, as VTK's own readers see them.
 #include <vtkCellData.h>
 #include <vtkErrorCode.h>
 #include <vtkImageData.h>

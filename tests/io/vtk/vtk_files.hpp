@@ -1,4 +1,4 @@
-/// What the tests with VTK share: files made by VTK's own writers.
+/// Files that the tests with VTK share, made by VTK's own writers.
 #pragma once
 
 #include <vtkBitArray.h>

@@ -58,7 +58,7 @@ TEST(Conditions, KindsOfDegenerateCellsAlongEveryAxis) {
     EXPECT_EQ(kind(std::vector<double>(12, 1)), "a point");
 }
 
-// Of as many cells in either order, the negative ones, which --fix-orientation would turn.
+// If as many cells are in either order, the negative ones are told, which --fix-orientation would turn.
 TEST(Conditions, CellsOfTheRarerOrderAreTold) {
     const Mesh good = box(2, {3, 1, 1});
     for (const std::vector<std::size_t>& turned : {std::vector<std::size_t>{4}, {0, 2, 5}, {0, 1, 3, 4, 5}}) {

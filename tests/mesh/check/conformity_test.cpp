@@ -92,7 +92,7 @@ TEST(ConformityReport, FacetsWithHolesAndWithoutArea) {
     for (const ViolatedFacet& f : coarse.examples) EXPECT_NEAR(f.covered, 1, 0x1p-40);
 }
 
-// What a face has in common with a facet counts, wherever its centroid lies.
+// The part that a face has in common with a facet counts, wherever its centroid lies.
 TEST(ConformityReport, TheShareThatIsCoveredIsAnArea) {
     Plc plc;
     plc.points = {2.5, 0, 0, 6.5, 0, 0, 6.5, 4, 0, 2.5, 4, 0, 3, 1, 0, 3.5, 1, 0, 3.5, 2, 0, 3, 2, 0};

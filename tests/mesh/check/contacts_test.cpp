@@ -138,7 +138,8 @@ TEST(Contacts, OfExtremeCoordinates) {
         EXPECT_LT(seen.exact, 30U) << d;
         for (const CellContact& c : r.contacts) {
             for (const std::string& text : c.common.fraction) {
-                // Of doubles: 2^1074 and more bits, 2 * 650 digits. Others: degree 13 in 2100 bits, 2 * 8300 digits.
+                // Fractions of doubles have 2^1074 and more bits, 2 * 650 digits; others have degree 13 in 2100 bits, 2
+                // * 8300 digits.
                 EXPECT_LT(text.size(), c.common.exact ? 2500U : 17000U);
             }
         }

@@ -129,7 +129,7 @@ void duplicate(const Site& s, base::Random& random) {
 }
 
 void third_at_a_facet(const Site& s, base::Random& random) {
-    // Of a cell at an inner node: the facet opposite to another of its nodes is an inner one.
+    // Takes a cell at an inner node: the facet opposite to another of its nodes is an inner one.
     const Index inner = inner_node(s, random);
     const auto star = cells_at(s, inner);
     auto nodes = nodes_of(s, star[random.below(star.size())]);

@@ -7,7 +7,8 @@
 namespace barycert::testing {
 namespace {
 
-// What the mesh's own neighbours say of cells that are changed, added or taken away by another defect.
+// Defects that follow where another defect changes, adds or takes away cells: the mesh's own neighbours and faces are
+// wrong then.
 constexpr DefectSet follows = set_of(DefectKind::wrong_neighbour, DefectKind::wrong_face);
 
 void expect_named(const Mesh& mesh, DefectSet must, DefectSet may, bool good) {
@@ -107,7 +108,7 @@ TEST(Defects, CellTakenOut) {
     }
 }
 
-// What kind of degenerate cell, and which cells and nodes, is told rightly.
+// The kind of a degenerate cell, and its cells and nodes, are told rightly.
 TEST(Defects, Places) {
     Mesh mesh = mesh_of_sites(3, 1);
     mesh.neighbours.clear(), mesh.faces.clear();

@@ -1,4 +1,4 @@
-// What is said to be exact is: signs, volumes, sums, whatever the size of the coordinates.
+// All that is said to be exact is: signs, volumes, sums, whatever the size of the coordinates.
 #include <CGAL/Gmpq.h>
 #include <CGAL/Simple_cartesian.h>
 #include <gtest/gtest.h>

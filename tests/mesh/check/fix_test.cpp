@@ -1,4 +1,4 @@
-// What has one right answer is made so, and all else stays.
+// Defects with one right repair are repaired, and all else stays.
 #include <cmath>
 #include <limits>
 

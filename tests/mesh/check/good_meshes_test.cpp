@@ -26,7 +26,7 @@ struct Good {
     double volume = 0;  ///< 0: not known by heart
 };
 
-/// What does not depend on how things are numbered, ordered and turned.
+/// Compares what does not depend on how things are numbered, ordered and turned.
 void expect_same_counts(const CheckReport& r, const CheckReport& s) {
     EXPECT_EQ(r.certified(), s.certified());
     EXPECT_EQ(r.nodes, s.nodes);

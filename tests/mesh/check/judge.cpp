@@ -156,7 +156,7 @@ private:
         return std::find(first, first + static_cast<std::ptrdiff_t>(d_ + 1), n) != first + mesh_.dimension + 1;
     }
 
-    /// Of a cell whose nodes are different, finite and there, and that is not flat: else none.
+    /// The sides of a cell whose nodes are different, finite and there, and that is not flat; of others none.
     std::vector<HalfSpace<N>> sides_of(std::size_t c) const {
         for (std::size_t i = 0; i <= d_; ++i) {
             if (node(c, i) < 0 || static_cast<std::size_t>(node(c, i)) >= at_.size()) return {};
@@ -201,7 +201,7 @@ private:
         return p;
     }
 
-    /// Of the normals of the half-spaces that all extreme points lie on the plane of.
+    /// The rank of the normals of those half-spaces whose planes hold all extreme points.
     static int rank_of(const std::array<const HalfSpace<N>*, 8>& all, const std::array<bool, 8>& tight,
                        std::size_t count) {
         int rank = 0;

@@ -10,7 +10,7 @@
 
 namespace barycert::testing {
 
-/// What two closed cells have in common.
+/// The common part of two closed cells.
 struct Meeting {
     int dimension = -1;          ///< of it; -1: nothing
     bool in_common_face = true;  ///< all of it lies in the convex hull of their common nodes
@@ -26,7 +26,7 @@ struct Judgement {
 /// themselves.
 Judgement judge(const Mesh& mesh, std::size_t first = 0);
 
-/// Of two cells with different nodes, finite and not flat.
+/// Requires: two cells with different nodes, finite and not flat.
 Meeting meeting(const Mesh& mesh, Mesh::Index a, Mesh::Index b);
 
 }  // namespace barycert::testing

@@ -1,4 +1,4 @@
-// What a check says of isoparametric maps: signs of Jacobians, and facets that both cells have.
+// Reports of a check about isoparametric maps: signs of Jacobians, and facets that both cells have.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -42,7 +42,7 @@ public:
         mesh.shapes.ends.push_back(static_cast<std::int64_t>(mesh.shapes.nodes.size()));
     }
 
-    /// Of the shape, that node: moved, with all cells that have it, or for that cell alone.
+    /// Moves that node of the shape, with all cells that have it, or for that cell alone.
     void move(std::size_t shape, std::size_t node, double by, bool alone) {
         const auto d = static_cast<std::size_t>(mesh.dimension);
         Index& number =

@@ -153,7 +153,7 @@ TEST(Robustness, SameFromAnyThreads) {
     }
 }
 
-// What a caller does when it is told of a stage changes nothing that is computed after it.
+// A caller that changes something when it is told of a stage changes nothing that is computed after it.
 TEST(Robustness, SameWithACallerThatRoundsUpward) {
     for (const int d : {2, 3}) {
         base::Random random(46);

@@ -9,7 +9,7 @@
 
 namespace barycert::testing {
 
-/// det(p1 - p0, p2 - p0[, p3 - p0]): d! times the signed volume. Precondition: indices in range; exact: finite.
+/// det(p1 - p0, p2 - p0[, p3 - p0]): d! times the signed volume. Requires: indices in range; exact: finite.
 template <class N>
 N determinant(const Mesh& mesh, std::size_t cell) {
     const auto d = static_cast<std::size_t>(mesh.dimension);

@@ -50,7 +50,7 @@ std::vector<Rational3> common_nodes(const RationalTriangle& a, const RationalTri
     return all;
 }
 
-/// What they have in common is more than the hull of their common nodes.
+/// Their common part is more than the hull of their common nodes.
 bool meet_beyond(const RationalTriangle& a, const RationalTriangle& b) {
     const std::vector<Rational3> nodes = common_nodes(a, b);
     return !std::ranges::all_of(common_points(a, b), [&](const Rational3& p) {
@@ -300,7 +300,7 @@ TEST(SurfaceCheck, WhatIsWrong) {
     EXPECT_EQ(r.find(DefectKind::node_on_facet)->places[0].nodes[0], 3);
 }
 
-// What breaks S1 is left out of all else.
+// Triangles that break S1 are left out of all else.
 TEST(SurfaceCheck, RegionsBesideWhatHasNoArea) {
     Surface s = surface_of({1, {1}});
     s.cells.insert(s.cells.end(), {0, 1, 1});

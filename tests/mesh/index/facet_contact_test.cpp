@@ -32,7 +32,7 @@ Point point(const std::array<double, 3>& p) {
     return {CGAL::Gmpq(p[0]), CGAL::Gmpq(p[1]), CGAL::Gmpq(p[2])};
 }
 
-/// What the two have in common is more than the vertices or the edge they share, which are first in both.
+/// The two have more in common than the vertices or the edge they share, which are first in both.
 bool judged(const Coordinates& f, const Coordinates& g, std::size_t common) {
     const Triangle t(point(f[0]), point(f[1]), point(f[2])), u(point(g[0]), point(g[1]), point(g[2]));
     if (common == 0) return CGAL::do_intersect(t, u);
@@ -88,7 +88,7 @@ TEST(FacetContact, AsCgalsExactKernelHasIt) {
     }
 }
 
-/// What the lanes take out has no conflict, and they take out most of what has none; the same on every target.
+/// The lanes take out only pairs without a conflict, and most of these; the same on every target.
 TEST(FacetContact, LanesTakeOutPairsWithoutConflict) {
     const std::string usual = simd_target();
     std::array<std::size_t, 2> taken{}, left{};           // by whether the pair conflicts

@@ -48,7 +48,8 @@ bool boxes_meet(const Mesh& mesh, std::size_t a, std::size_t b) {
     return true;
 }
 
-/// How many cells are not contested; each meets all others as it should. Of every `step`th cell this is looked at.
+/// Returns how many cells are not contested. Expects that each of them meets all others as it should; looks at every
+/// `step`th cell.
 std::size_t expect_proved(const Mesh& mesh, const std::string& what, std::size_t step = 1) {
     const Locator locator = Locator::build(mesh, {.threads = 1}).value();
     const locate::LocatorData& data = locate::LocatorData::of(locator);

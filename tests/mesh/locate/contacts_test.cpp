@@ -73,7 +73,7 @@ TEST(LocateContacts, L1PartsApartAndCavities) {
                             "spiral");
 }
 
-// What shares no nodes but touches is no complex: it must be asked cell by cell.
+// Parts that share no nodes but touch are no complex: they must be asked cell by cell.
 TEST(LocateContacts, L1PartsThatShareNoNodes) {
     for (const int d : {2, 3}) {
         base::Random random(1);

@@ -1,4 +1,4 @@
-// What a Locator refuses, and what it does with a certificate that is none for its mesh.
+// Meshes that a Locator refuses, and its use of a certificate that is none for its mesh.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -75,7 +75,7 @@ TEST(LocateErrors, InconsistentMeshes) {
     EXPECT_NE(refused([](Mesh& m) { m.point_fields.push_back({"f", 1, {1.0}}); }), "");
 }
 
-// What a check certifies is taken, and what is refused was not certified.
+// Meshes that a check certifies are taken, and those that are refused were not certified.
 TEST(LocateErrors, CertifiedMeshesAreTaken) {
     const std::vector<std::pair<const char*, void (*)(Mesh&)>> spoils{
         {"nothing", [](Mesh&) {}},

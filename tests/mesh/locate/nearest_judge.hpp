@@ -25,7 +25,7 @@ public:
     /// Squared distance to the closed cell's boundary (2D: to the closed cell).
     mpq_class to_cell(const double* point, Mesh::Index cell) const;
 
-    /// Squared distance to the affine hull of 1 to 3 nodes. Precondition: they span as much as they can.
+    /// Squared distance to the affine hull of 1 to 3 nodes. Requires: they span as much as they can.
     mpq_class to_hull(const double* point, std::span<const Mesh::Index> nodes) const;
 
     bool degenerate(Mesh::Index cell) const;

@@ -98,7 +98,7 @@ class Judge {
 public:
     Judge(const Mesh& mesh, int order) : mesh_(mesh), order_(order), cells_(whole_cells(mesh)) {}
 
-    /// Of all facets of all cells: a grid of places, and steps from the best ones that get smaller.
+    /// Searches all facets of all cells: a grid of places, and steps from the best ones that get smaller.
     Found nearest(const double* p) const {
         Found best;
         for (std::size_t cell = 0; cell < cells_.count(); ++cell) {

@@ -67,8 +67,8 @@ double reach(const Mesh& mesh, Mesh::Index cell, const double* point) {
     return max;
 }
 
-/// Of points outside. Distances, and how much farther the chosen cell and feature are than the nearest, are right to
-/// eight roundings of the reach: differences, products and sums, divisions and roots follow each other no farther.
+/// Checks points outside. Distances, and how much farther the chosen cell and feature are than the nearest, are right
+/// to eight roundings of the reach: differences, products and sums, divisions and roots follow each other no farther.
 void expect_nearest(const Mesh& mesh, const std::vector<double>& points, const std::string& what) {
     const auto locator = Locator::build(mesh, {.prove = Prove::never});
     ASSERT_TRUE(locator) << what;
@@ -221,7 +221,7 @@ std::vector<double> outside_of(const Mesh& mesh, base::Random& random) {
     return points;
 }
 
-// What is as near as the limit counts: so a point is found again with the distance that was reported as its limit.
+// A point as near as the limit counts: so it is found again with the distance that was reported as its limit.
 TEST(LocateNearest, TheLimitIncludesItself) {
     for (const char* stem : {"cube-hole", "plate"}) {
         base::Random random(8);

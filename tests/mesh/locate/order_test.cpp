@@ -203,7 +203,7 @@ TEST(LocateOrder, CallsForOnePointRememberWhereNoCellIs) {
             }
         }
     }
-    // What is remembered takes memory, and is made after so many points outside as pay for it.
+    // An occupancy takes memory, and is made after so many points outside as pay for it.
     const Mesh mesh = own_mesh("bracket");
     const auto locator = Locator::build(mesh);
     base::Random random(9);

@@ -294,7 +294,7 @@ TEST(SurfaceLocator, N1_TrianglesWithoutArea) {
     expect_all_nearest(point, {1, 2, 3, 0, 0, 0, 1e300, 0, 0}, "a point");
 }
 
-// Of a sphere of nodes nearly all triangles are as near to its centre as floating point knows.
+// A sphere of nodes has nearly all triangles as near to its centre as floating point knows.
 TEST(SurfaceLocator, N1_TheCentreOfASphere) {
     Surface s;
     constexpr int around = 64, along = 32;
@@ -575,7 +575,7 @@ public:
         return s;
     }
 
-    /// Of the middle of each cell; nothing if there is no inside.
+    /// Winding numbers of the middle of each cell; nothing if there is no inside.
     std::optional<std::map<std::array<int, 3>, int>> windings() const {
         std::map<std::array<int, 3>, int> sum;
         std::set<Side> left;
@@ -670,7 +670,7 @@ private:
             for (const auto& [edge, way] : edges(s)) along[edge] += way * net(s);
         }
         if (any && std::ranges::all_of(along, [](const auto& e) { return e.second == 0; })) {
-            // What a ray along the first axis crosses.
+            // Sums what a ray along the first axis crosses.
             for (int y = -2; y <= n + 2; ++y) {
                 for (int z = -2; z <= n + 2; ++z) {
                     int winding = 0;
@@ -683,7 +683,7 @@ private:
             }
             return true;
         }
-        // What is outside of it.
+        // The cells outside of it.
         std::set<Cell> outside{{-2, -2, -2}};
         std::vector<Cell> open{{-2, -2, -2}};
         while (!open.empty()) {

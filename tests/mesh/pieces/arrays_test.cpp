@@ -1,4 +1,4 @@
-// What arrays all ranks have: those of the lowest rank that has cells.
+// Arrays that all ranks have: those of the lowest rank that has cells.
 
 #include <gtest/gtest.h>
 

@@ -22,7 +22,7 @@ using pieces::Piece;
 
 constexpr double plane = 0.25;  ///< of triangles
 
-/// What it puts for a tuple: the number of the cell, so many times as its last digit says.
+/// Puts, for a tuple, a text whose length depends on the last digit of the cell's number, and the number.
 struct Numbers : pieces::Tuples {
     void put(std::size_t tuple, std::vector<char>& bytes) const override {
         const std::string text(static_cast<std::size_t>(of[tuple] % 10) + 1, static_cast<char>('a' + of[tuple] % 26));

@@ -20,7 +20,7 @@ Heights heights_of(const Mesh& mesh, const Field& field, double value, int compo
 /// offset - normal.x.
 Heights heights_of(const Mesh& mesh, const Plane& plane);
 
-/// What may be wrong with the mesh.
+/// Faults that the mesh may have.
 struct Allowed {
     bool flat_cells = false;   ///< of zero volume: their triangles have no side
     bool any_complex = false;  ///< facets with more than two cells, or two on one side: nothing is said of K2

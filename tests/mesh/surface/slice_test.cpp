@@ -125,7 +125,7 @@ TEST(Slice, K1NearTiesWhereHeightsCancelOut) {
     EXPECT_GE(exact, 400U);
 }
 
-/// Of triangles across the third axis.
+/// The area of triangles across the third axis.
 double area_of(const Surface& s) {
     double area = 0;
     for (std::size_t t = 0; t < s.cell_count(); ++t) {

@@ -27,7 +27,7 @@ namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-/// What a tool might say of points, and what that makes of each row.
+/// Claims that a tool might make about points, and the verdict on each row.
 struct Claims {
     std::vector<std::int64_t> cells;
     std::vector<std::uint8_t> inside;

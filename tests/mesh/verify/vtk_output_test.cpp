@@ -134,7 +134,7 @@ protected:
         return vtkCharArray::SafeDownCast(data->GetPointData()->GetArray("vtkValidPointMask"));
     }
 
-    /// What a row is, by the oracle. `holders` gets the cells that contain its point.
+    /// The verdict on a row, by the oracle. `holders` gets the cells that contain its point.
     RowVerdict judged(vtkDataSet* data, vtkIdType row, std::vector<Held>& holders) const {
         double at[3];
         data->GetPoint(row, at);

@@ -1,5 +1,5 @@
-/// What the kernels of this folder share. Each is one formula of a known library as barycert/kernel.h has it, under a
-/// name with the version of the library.
+/// Code that the kernels of this folder share. Each is one formula of a known library as barycert/kernel.h has it,
+/// under a name with the version of the library.
 #pragma once
 
 #include "barycert/kernel.h"

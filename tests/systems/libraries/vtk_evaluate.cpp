@@ -22,7 +22,7 @@ constexpr const char *simplex = "tetrahedron", *source = "vtkTetra::EvaluatePosi
 constexpr int corners = 4;
 #endif
 
-/// What EvaluatePosition returns: 1 inside, 0 outside, -1 degenerate.
+/// Returns what EvaluatePosition returns: 1 inside, 0 outside, -1 degenerate.
 int evaluate(const double* vertices, const double* point, double* weights) {
     // One cell a thread: to make one takes longer than to ask it.
     thread_local const vtkNew<Cell> cell;
@@ -45,7 +45,7 @@ extern "C" int barycert_kernel_weights(const double* vertices, const double* poi
 }
 
 #ifndef BARYCERT_TRIANGLE
-// Of a triangle in space VTK says inside only near its plane; barycert asks for the projection.
+// VTK says inside of a triangle in space only near its plane; barycert asks for the projection.
 extern "C" int barycert_kernel_classify(const double* vertices, const double* point, const double*) {
     double weights[4];
     const int said = evaluate(vertices, point, weights);

@@ -54,7 +54,7 @@ struct AuditJob {
     AuditOptions options = {};               ///< but for kernels and families
 };
 
-/// What run_audit() and audit_mutants() are given.
+/// Arguments of run_audit() and audit_mutants().
 struct PreparedAudit {
     AuditOptions options;
     MeshSource meshes;

@@ -1,4 +1,4 @@
-/// What an audit found, as text, JSON and pictures; the catalogue and the families likewise.
+/// Reports of audits as text, JSON and pictures; the catalogue and the families likewise.
 #pragma once
 
 #include "barycert/audit_pictures.hpp"
@@ -7,8 +7,8 @@
 
 namespace barycert {
 
-// What `./run flags` and `./run systems` measured, for the page of an audit: formulas under compiler flags, and other
-// systems held against exact answers. Both write JSON, which is read here.
+// Measurements of `./run flags` and `./run systems`, for the page of an audit: formulas under compiler flags, and other
+// systems compared with exact answers. Both write JSON, which is read here.
 
 /// Formulas in rows, sets of compiler flags in columns.
 struct FlagsMatrix {
@@ -31,7 +31,7 @@ struct FlagsMatrix {
     std::vector<KernelAnswers> rows;
 };
 
-/// What systems answered to points, held against the exact owners and values.
+/// Answers of systems to points, compared with the exact owners and values.
 struct SystemsLeague {
     struct Standing {
         std::string name = {}, version = {};
@@ -56,7 +56,7 @@ Result<OtherResults> read_other_results(const std::string& path);
 
 // Reports as text for a terminal or a log.
 
-/// At most 100 columns, names aside: who is wrong, how often and by how much, a line a kernel, worst first. Of one
+/// At most 100 columns, names aside: who is wrong, how often and by how much, a line a kernel, worst first. For one
 /// kernel: its families, its findings and the commands that replay them. With style.wide all counts, the families, each
 /// kernel's worst witness with its command, however wide.
 std::string audit_text(const AuditReport& report, const TerminalStyle& style);
@@ -71,7 +71,7 @@ std::string families_text(const std::vector<Family>& families);
 
 // The audit as one HTML page, for people: to read, to print, to pass on.
 
-/// What a page shows beside the report.
+/// Further contents of a page beside the report.
 struct AuditPage {
     TerminalStyle style = {};               ///< for the commands that replay witnesses
     std::string command_line = {};          ///< the one that made the page; empty: not told
@@ -150,7 +150,7 @@ std::string inverses_html(const InverseAudit& audit);
 std::string gaps_text(const GapsReport& report, const TerminalStyle& style);
 std::string gaps_json(const GapsReport& report);
 
-// What an audit found, for the systems that run it (see report.hpp).
+// Outcomes of an audit, for the systems that run it (see report.hpp).
 //
 // An outcome fails where a rule of --fail-on is broken, or a figure is worse than the baseline's. Findings that
 // break no rule are told and do not fail.
@@ -159,7 +159,7 @@ std::string gaps_json(const GapsReport& report);
 CiReport audit_outcomes(const AuditReport& report, const std::vector<Threshold>& rules,
                         const BaselineComparison* comparison, const std::map<std::string, std::string>& artifacts);
 
-/// What got worse and better, some lines of each; what could not be compared.
+/// Describes what got worse and better, some lines of each, and what could not be compared.
 std::string baseline_text(const BaselineComparison& comparison, const std::string& path);
 
 }  // namespace barycert

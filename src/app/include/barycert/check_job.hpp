@@ -46,12 +46,12 @@ struct CheckedMesh {
     bool copied = false;             ///< the copy was written and checked
     Status written = Done{};         ///< the first output that could not be written, or why there is no copy
 
-    /// Of the copy, if there is one.
+    /// Whether the copy is certified, or the mesh if there is no copy.
     bool certified() const { return (copied ? fixed->after : report).certified(); }
 };
 
 /// Returns an Error, and writes nothing, if the job contradicts itself, an input cannot be read, or an output is an
-/// input or cannot be written. What goes wrong once the mesh is checked does not cost the report: CheckedMesh::written.
+/// input or cannot be written. Errors after the mesh is checked do not cost the report: CheckedMesh::written.
 Result<CheckedMesh> check_files(const CheckJob& job);
 
 }  // namespace barycert

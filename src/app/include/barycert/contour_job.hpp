@@ -44,7 +44,7 @@ struct PixelGrid {
     std::array<double, 3> middle(std::int64_t i, std::int64_t j) const;
 };
 
-/// What a job did: what its reports are made of.
+/// Results of a job, from which its reports are made.
 struct ContourReport : MeshReport {
     std::string field, output;
     std::optional<double> value;
@@ -53,7 +53,8 @@ struct ContourReport : MeshReport {
     CutCounts counts;
     std::vector<std::string> fields;  ///< in the file
     SurfaceFile file;
-    /// Of what is cut, the field or normal.x: its least and greatest number at nodes of cells. NaN if there is none.
+    /// The least and the greatest number, at nodes of cells, of what is cut: the field or normal.x. NaN if there is
+    /// none.
     double low = 0, high = 0;
     std::optional<PixelGrid> pixels;  ///< of a picture of a section; with one sample a pixel values are those there
     SampleCounts samples;

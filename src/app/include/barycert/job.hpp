@@ -1,4 +1,4 @@
-/// Whole jobs, files to files: what all of them have. The command line and the bindings call them.
+/// Whole jobs, files to files: the parts that all of them have. The command line and the bindings call them.
 ///
 /// A job names its files and options; one call reads the mesh and its fields, checks the mesh where that pays, streams
 /// points through a Sampler and writes rows, grids, pictures or meshes. Memory is that of the mesh and some blocks of
@@ -23,18 +23,18 @@ struct FieldFile {
     enum class Of : std::uint8_t { either, points, cells };
     Of of = Of::either;
     std::string name, path;
-    /// Of a CSV file the name or number (from 1) of the column, of a structured NPY file the field, of a mesh the
-    /// array. Empty: all that a text or NPY file holds.
+    /// The column of a CSV file, by name or number (from 1); the field of a structured NPY file; the array of a mesh.
+    /// Empty: all that a text or NPY file holds.
     std::string column = {};
 };
 
-/// What a job is doing.
+/// The current stage of a job.
 struct JobProgress {
     std::string_view stage;  ///< such as "reading part.1" or "points"
     std::uint64_t done = 0;  ///< how many; 0: not counted
 };
 
-/// What all jobs on a mesh have.
+/// Members that all jobs on a mesh have.
 struct MeshJob {
     std::string mesh;      ///< as for read_mesh
     StepChoice step = {};  ///< of a mesh that is a series (.pvd, .vtu.series); none: the first
@@ -49,7 +49,7 @@ struct MeshJob {
     std::function<void(const JobProgress&)> progress = {};
 };
 
-/// What reports of jobs on a mesh have.
+/// Members that reports of all jobs on a mesh have.
 struct MeshReport {
     std::string mesh;
     CurvedCells curved;  ///< of the mesh: taken with straight sides
@@ -59,8 +59,8 @@ struct MeshReport {
     int dimension = 3, threads = 1;
 };
 
-/// Wall times of the stages. Points are read, sampled and written at the same time: of these each has the time in which
-/// somebody was busy with it, divided by the threads where several may be.
+/// Wall times of the stages. Points are read, sampled and written at the same time: each of these stages has the time
+/// during which a thread was busy with it, divided by the number of threads where several may be.
 struct JobSeconds {
     double mesh = 0;    ///< reading the mesh and the files of fields
     double build = 0;   ///< of the locator and the sampler; of a contour the cut

@@ -32,7 +32,7 @@ struct TexelError {
     std::int32_t column = 0, row = 0;  ///< row counted from the bottom
 };
 
-/// What was drawn.
+/// Results of drawing.
 struct RenderReport : MeshReport {
     std::string picture;  ///< gradient, texture, cube, clip, mesh, scene
     std::string input;    ///< the scene, mesh or image; empty if there is none
@@ -48,9 +48,10 @@ struct RenderReport : MeshReport {
     double seconds = 0;  ///< from the options to the file
 };
 
-/// What a RenderJob draws: the scene of a file; a triangle with a red, a green and a blue corner; an image on a square
-/// or triangle; a checkerboard on a cube in perspective, with the largest error of its texture coordinates; a triangle
-/// and segments before and after clipping by a box; the boundary of a mesh of tetrahedra, or a mesh of triangles.
+/// Pictures that a RenderJob draws: the scene of a file; a triangle with a red, a green and a blue corner; an image on
+/// a square or triangle; a checkerboard on a cube in perspective, with the largest error of its texture coordinates; a
+/// triangle and segments before and after clipping by a box; the boundary of a mesh of tetrahedra, or a mesh of
+/// triangles.
 enum class PictureKind : std::uint8_t { scene, gradient, texture, cube, clip, mesh };
 
 constexpr std::string_view name(PictureKind p) {
@@ -58,13 +59,13 @@ constexpr std::string_view name(PictureKind p) {
     return names[static_cast<std::size_t>(p)];
 }
 
-/// What of a mesh a picture shows: its boundary, in the plane its cells; or, where slices, iso-surfaces or marked cells
-/// are named, these. Cells that threshold or box leave out are not there, nor is what lies before the plane.
+/// Parts of a mesh that a picture shows: its boundary, in the plane its cells; or, where slices, iso-surfaces or marked
+/// cells are named, these. Cells that threshold or box leave out are not shown, nor is anything before the plane.
 struct SceneChoice {
     bool surface = true;   ///< false: no boundary
     bool edges = false;    ///< of cells, on what is drawn
     bool outline = false;  ///< where the boundary bends by 30 degrees or more; in the plane all of it
-    /// Cut open: what has normal.x above the offset is left out. What is cut is closed by the section.
+    /// Cut open: parts with normal.x above the offset are left out. The section closes the cut.
     std::optional<Plane> plane = {};
     /// Cells with a node inside are left out.
     std::optional<std::pair<std::array<double, 3>, std::array<double, 3>>> box = {};
@@ -85,7 +86,7 @@ struct SceneChoice {
     std::vector<Mesh::Index> marked = {};  ///< cells by their numbers, in red
 };
 
-/// A picture as a file. Of MeshJob, `mesh` and what belongs to it are for PictureKind::mesh alone.
+/// A picture as a file. `mesh` and the members of MeshJob that belong to it are for PictureKind::mesh alone.
 struct RenderJob : MeshJob {
     PictureKind picture = PictureKind::scene;
     std::string output;         ///< .png; of a mesh also .svg or .pdf
@@ -104,9 +105,9 @@ struct RenderJob : MeshJob {
     int threads = 0;    ///< 0: as many as the machine has
 };
 
-/// Of a mesh it draws facets that one cell alone has; their colours are those of nodes, or of that cell. Returns an
-/// Error if the job contradicts itself, an input cannot be read, a mesh has no such field or component or no cells, as
-/// render and write_figure do, or if the file cannot be written.
+/// Draws a picture. Of a mesh it draws the facets that only one cell has, in the colours of nodes or of that cell.
+/// Error: the job contradicts itself; an input cannot be read; a mesh has no such field or component, or no cells;
+/// errors of render and write_figure; the file cannot be written.
 Result<RenderReport> render_files(const RenderJob& job);
 
 /// The same of a mesh in memory, to the file `path`: .png, .svg, .pdf or .html.

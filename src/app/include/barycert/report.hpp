@@ -1,4 +1,4 @@
-/// What jobs found, as text, JSON and HTML, and for continuous integration. Strings come back; nothing is written.
+/// Reports of jobs as text, JSON and HTML, and for continuous integration. Functions return strings, and write nothing.
 #pragma once
 
 #include "barycert/certificate.hpp"
@@ -37,8 +37,8 @@ namespace barycert {
 struct TerminalStyle {
     bool colour = false;
     std::string command = "barycert";  ///< how the user calls the program, for commands to repeat
-    /// What replays a witness: appended to "barycert replay"; a file name, or empty to name the family and case
-    /// instead.
+    /// The argument that replays a witness, appended to "barycert replay": a file name, or empty to name the family and
+    /// case instead.
     std::string witness_path = {};
     std::vector<std::string> mesh_arguments = {};     ///< as the user gave them, repeated in replay commands
     std::vector<std::string> library_arguments = {};  ///< likewise: the user's kernel libraries
@@ -60,7 +60,7 @@ std::string policy_text(const OutsidePolicy& policy);
 std::string check_text(const CheckReport& report, const Mesh& mesh, const std::string& name,
                        const TerminalStyle& style);
 
-/// What was done, the verdict on the copy, and what remains.
+/// Describes what was done, the verdict on the copy, and what remains.
 std::string fix_text(const FixedMesh& fixed, const TerminalStyle& style);
 
 // The report on a mesh as JSON. Every member is documented in doc/json.md.
@@ -78,16 +78,17 @@ std::string check_json(const CheckReport& report, const std::string& name, const
 /// page, which asks for nothing from anywhere and runs no scripts. It is well-formed XML, too. Some hundred kilobytes
 /// at most, whatever the size of the mesh. `mesh` is what the report is of, `mesh_name` what the user calls it.
 ///
-/// Cost: some passes over the mesh, and its boundary once more. Of broken meshes nothing is drawn that has no place.
+/// Cost: some passes over the mesh, and its boundary once more. Parts of broken meshes that have no place are not
+/// drawn.
 std::string check_html(const CheckReport& report, const Mesh& mesh, const std::string& mesh_name,
                        const FixedMesh* fixed = nullptr);
 /// The histograms of its measures as the bytes of a picture, by the suffix of `path`: .png, .pdf, else SVG. Error:
 /// there are none; a side of more than 32767 pixels.
 Result<std::string> check_plot(const CheckReport& report, const std::string& mesh_name, const std::string& path);
-/// Of a surface or a PLC, with draw_checked() if it can be drawn.
+/// The page of a surface or a PLC, with draw_checked() if it can be drawn.
 std::string check_html(const CheckReport& report, const Surface& surface, const std::string& name);
 
-// What a run of sampling did, for people and as JSON. Every member is documented in doc/json.md.
+// Reports on a run of sampling, for people and as JSON. Every member is documented in doc/json.md.
 
 /// A few lines of at most 120 columns, names of files aside.
 std::string sample_text(const SampleReport& summary, bool colour);
@@ -96,7 +97,7 @@ inline constexpr int sample_schema = 1;
 
 std::string sample_json(const SampleReport& summary, const Environment& environment);
 
-// What a verification of results found, for people and as JSON and HTML. JSON is documented in doc/json.md.
+// Reports on a verification of results, for people and as JSON and HTML. JSON is documented in doc/json.md.
 
 inline constexpr int verify_schema = 1;
 
@@ -110,7 +111,7 @@ std::string verify_html(const VerifyReport& summary, const Environment& environm
 /// Histograms of the errors of each column, in ulps and in parts of its range, as check_plot.
 Result<std::string> verify_plot(const VerifyReport& summary, const std::string& path);
 
-// What a run of cutting did, for people and as JSON.
+// Reports on a run of cutting, for people and as JSON.
 
 /// A few lines of at most 120 columns, names of files and fields aside.
 std::string contour_text(const ContourReport& summary, bool colour);
@@ -119,7 +120,7 @@ inline constexpr int contour_schema = 1;
 
 std::string contour_json(const ContourReport& summary, const Environment& environment);
 
-// What a picture shows, for people; and as JSON, whose members are documented in doc/json.md.
+// Reports on a picture, for people; and as JSON, whose members are documented in doc/json.md.
 
 /// A few lines of at most 120 columns, names aside.
 std::string render_text(const RenderReport& summary, bool colour);
@@ -128,7 +129,7 @@ inline constexpr int render_schema = 1;
 
 std::string render_json(const RenderReport& summary, const Environment& environment);
 
-// What a run found, for the systems that run it: JUnit's XML, SARIF 2.1.0, annotations of GitHub's workflows.
+// Reports on a run for the systems that run it: JUnit's XML, SARIF 2.1.0, annotations of GitHub's workflows.
 //
 // All three say the same outcomes. One fails where the program's exit code says so and nowhere else: a mesh that is
 // not certified, rows that are wrong, a broken rule of --fail-on. Other findings are told and do not fail.

@@ -19,16 +19,18 @@
 
 namespace barycert {
 
-/// What sampling and resampling have.
+/// Members that sampling and resampling have.
 struct SamplingJob : MeshJob {
-    /// Of a mesh that is a series: without a `step`, where the output has {step} or {time} in its name, and there are
-    /// no series of fields, every step is sampled into an output of its own, in which its number or time takes that
-    /// place; points are located anew where the mesh is another one. With all_steps an Error where that is not so.
+    /// For a mesh that is a series. Every step is sampled into an output of its own if the job has no `step` and no
+    /// series of fields, and its output has {step} or {time} in its name; the step's number or time takes that place.
+    /// Points are located anew where the mesh is another one. If all_steps is set and these conditions do not hold, the
+    /// job is an Error.
     bool all_steps = false;
-    /// Fields that change from step to step: each path has one *, and each file that it matches is a step, in natural
-    /// order (2 before 10); or it is a .pvd or .vtu.series file. Where the output has {step} or {time} in its name,
-    /// each step has an output of its own, in which what the * stood for, or the time, takes that place; points are
-    /// located once, and values of one step are in memory. Else the steps of NAME, 256 at most, are columns NAME@STEP.
+    /// Fields that change from step to step. Each path has one *, and each file that it matches is a step, in natural
+    /// order (2 before 10); or it is a .pvd or .vtu.series file. If the output has {step} or {time} in its name, each
+    /// step has an output of its own, and the text that the * stood for, or the time, takes that place; points are
+    /// located once, and only the values of one step are in memory. Otherwise the steps of NAME, 256 at most, are
+    /// columns NAME@STEP.
     std::vector<FieldFile> series = {};
     std::vector<std::string> fields = {};  ///< names, see Sampler::build; empty: all
     std::string output;                    ///< the format goes by the suffix; "-" is CSV on stdout
@@ -41,15 +43,15 @@ struct SamplingJob : MeshJob {
     bool count_degenerate = true;  ///< of SampleReport: a pass over the cells
 };
 
-/// Points from one end to the other, as far apart as they can be: each coordinate rounded.
+/// Points from one end to the other, equally far apart: each coordinate is rounded.
 struct PointLine {
     std::vector<double> from, to;
     std::int64_t count = 200;  ///< at least 1; one is at the first end
 };
 
-/// Fields at points: rows to CSV, NPY or VTU files. Of a surface (read_surface): at the nearest point of it, with its
-/// triangle, the feature in which it lies, and the distance, negative where the point is inside; options.outside.limit
-/// bounds it. A map has the triangles then, and weights are those of the nearest points: nearest projection.
+/// Fields at points: rows to CSV, NPY or VTU files. For a surface (read_surface) rows are those of its nearest point,
+/// with the triangle, the feature on which the point lies, and the distance, negative inside; options.outside.limit
+/// bounds the distance. A map then has triangles, and weights are those of the nearest points (nearest projection).
 struct SampleJob : SamplingJob {
     std::string points;                  ///< as for open_points; or
     std::optional<PointLine> line = {};  ///< these
@@ -90,16 +92,16 @@ constexpr std::string_view name(PointsFrom f) {
     return names[static_cast<std::size_t>(f)];
 }
 
-/// A column of a cell field over the cells of its mesh, and over those of the mesh at whose nodes it was sampled,
-/// between which it is linear (quadratic on second-order cells). Exact sums of value times volume (in the plane area;
-/// of straight sides, whatever the orientation), rounded once; cells that overlap count twice.
+/// Integrals of a column of a cell field: over the cells of its mesh, and over the cells of the mesh at whose nodes it
+/// was sampled, between which it is linear (quadratic on second-order cells). Exact sums of value times volume (area in
+/// the plane; with straight sides, whatever the orientation), rounded once; cells that overlap count twice.
 struct FieldIntegral {
     std::string column;
     double source = 0, target = 0;
     std::uint64_t source_left_out = 0, target_left_out = 0;  ///< cells with a value that is not finite
 };
 
-/// What a job did: what its reports are made of.
+/// Results of a job, from which its reports are made.
 struct SampleReport : MeshReport {
     std::string command;  ///< "sample" or "resample"
     std::string output, weights;
@@ -131,8 +133,8 @@ struct SampleReport : MeshReport {
     bool surface = false;  ///< `cells` are triangles in space, and rows are of the nearest points on them
 };
 
-/// Return an Error, and write nothing, if the job contradicts itself, an input cannot be read, an output is an input or
-/// cannot be written, or the policy for points outside is `error` and a point is outside.
+/// Sample, and write the output. Error, and nothing is written: the job contradicts itself; an input cannot be read; an
+/// output is an input or cannot be written; a point is outside under the policy `error`.
 Result<SampleReport> sample_files(const SampleJob& job);
 /// The plot alone, of what a sampler has: six columns at most.
 Status write_line_plot(const std::string& path, const Sampler& sampler, const PointLine& line,

@@ -48,7 +48,7 @@ struct VerifyJob : MeshJob {
     std::vector<VerifyLimit> limits = {};  ///< empty: none of any kind
 };
 
-/// What a verification did: what its reports are made of.
+/// Results of a verification, from which its reports are made.
 struct VerifyReport : MeshReport {
     std::string results;
     bool certified = false;

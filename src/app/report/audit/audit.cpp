@@ -1,4 +1,4 @@
-// What an audit found, for people.
+// Report of an audit, for people.
 
 #include "app/report/audit/audit_words.hpp"
 
@@ -8,7 +8,7 @@ using namespace report;
 
 namespace {
 
-/// What these add to the style of pages.
+/// Additions to the style of pages.
 constexpr std::string_view audit_style = R"(
 .small-figures{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,236px),1fr));gap:14px 18px}
 .small-figures figcaption{overflow-wrap:anywhere;color:var(--ink);line-height:1.3}
@@ -28,20 +28,20 @@ std::string regions_text(const AuditReport& report) {
                   [&](Region r) { return fmt::format("{} {}", report.regions[static_cast<std::size_t>(r)], name(r)); });
 }
 
-/// What makes the same report again, and how long it took.
+/// Says what makes the same report again, and how long it took.
 std::string how_it_was_made(const AuditReport& report) {
     return fmt::format("seed {}, {} cases per family and simplex, {} threads, {:.1f} s", report.seed, report.count,
                        report.threads, report.seconds);
 }
 
-/// What is known of a kernel, or of one of its families: a row of a table.
+/// A kernel's results, or those of one of its families: a row of a table.
 struct Known {
     std::string name, tip;
     const KernelStatistics* statistics;
     double meshes = -1, ns = 0;  ///< of a kernel
 };
 
-/// Of kernels, worst first; or of the families of one.
+/// A table of kernels, worst first; or of the families of one kernel.
 Listing statistics_table(const std::vector<Known>& all, bool kernels) {
     const std::string error = kernels ? "error," : "error";
     const For of_families = kernels ? For::page : For::all;
@@ -151,7 +151,7 @@ void tell_families(Document& d, const AuditReport& r) {
           Tone::soft);
 }
 
-/// Of several kernels all but the first of each fold, on a page.
+/// Adds a kernel's witnesses. On a page of several kernels all but the first fold.
 void tell_witnesses_of(Document& d, const AuditReport& r, const KernelResult& k, const TerminalStyle& style) {
     if (k.witnesses.empty() && k.total.not_run == 0) d.say("No witness: every weight and value is correctly rounded.");
     for (const Witness& w : k.witnesses) {
@@ -161,7 +161,7 @@ void tell_witnesses_of(Document& d, const AuditReport& r, const KernelResult& k,
     }
 }
 
-/// Of each kernel the witnesses of all its findings.
+/// Adds, for each kernel, the witnesses of all its findings.
 void tell_witnesses(Document& d, const AuditReport& r, const TerminalStyle& style) {
     d.section("Witnesses");
     d.say("The worst case of each finding, and the command that shows the kernel's answer beside the exact one.",
@@ -271,7 +271,7 @@ void tell_wide(Document& d, const AuditReport& r, const TerminalStyle& style) {
     }
 }
 
-/// What a terminal is told last.
+/// Adds the last lines on a terminal.
 void tell_hints(Document& d, const AuditReport& r, const TerminalStyle& style) {
     const KernelResult& worst = r.kernels.front();
     const Witness* const w = worst_witness(worst);
@@ -286,7 +286,7 @@ void tell_hints(Document& d, const AuditReport& r, const TerminalStyle& style) {
           For::terminal);
 }
 
-/// What is on a page alone.
+/// The parts that only a page has.
 Document page_of(const AuditReport& r, const TerminalStyle& style, const AuditPage& page) {
     Document d;
     const bool one = r.kernels.size() == 1;

@@ -1,4 +1,4 @@
-// What programs read of audits, of the catalogue and of the families; what systems that run audits are told.
+// JSON of audits, of the catalogue and of the families, for programs; reports for systems that run audits.
 
 #include "app/report/audit/audit_words.hpp"
 #include "audit/asking.hpp"

@@ -13,7 +13,7 @@ double wrong_share(const KernelResult& k) {
     return static_cast<double>(k.total.wrong_cases) / static_cast<double>(k.total.cases);
 }
 
-/// Those that no kernel beats in both: faster ones are wrong more often. By time.
+/// Returns, by time, the kernels that no other beats in both: faster ones are wrong more often.
 std::vector<const KernelResult*> front_of(std::vector<const KernelResult*> kernels) {
     std::ranges::stable_sort(kernels, {}, [](const auto* k) { return std::pair(k->ns, wrong_share(*k)); });
     std::vector<const KernelResult*> front;
@@ -118,7 +118,7 @@ struct SignColour {
     png::Colour colour;
     std::string_view text;
 };
-/// Of the signs -1, 0, 1 and of no answer.
+/// Colours of the signs -1, 0, 1 and of no answer.
 constexpr std::array<SignColour, 4> sign_colours{{{{0xe6, 0x9f, 0x00}, "negative"},
                                                   {{0xff, 0xff, 0xff}, "zero"},
                                                   {{0x00, 0x72, 0xb2}, "positive"},
@@ -141,7 +141,7 @@ struct SameSigns {
     std::vector<std::string> kernels;  ///< without the exact picture's empty name
 };
 
-/// Of the kind of case of `exact`.
+/// Groups pictures with the same signs, of the kind of case of `exact`.
 std::vector<SameSigns> grouped_pictures(const std::vector<SignPicture>& pictures, const SignPicture& exact) {
     std::vector<SameSigns> groups;
     for (const SignPicture& p : pictures) {

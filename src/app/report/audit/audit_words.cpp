@@ -13,7 +13,7 @@ bool without_finding(const KernelStatistics& s) {
     return s.wrong_cases == 0 && s.not_run == 0;
 }
 
-/// What is wrong with a kernel, how often and by how much.
+/// Says what is wrong with a kernel, how often and by how much.
 std::string kernel_sentence(const AuditReport& report, const KernelResult& k) {
     const KernelStatistics& s = k.total;
     const Share out = inside_called_outside(s), in = outside_called_inside(s), none = unanswered(s);

@@ -47,10 +47,10 @@ bool any_wrong(const AuditReport& report);
 std::string verdict_sentence(const AuditReport& report);
 /// Sentences below the verdict: the worst kernel, broken certificates, the kernels without a finding.
 std::vector<std::string> verdict_details(const AuditReport& report);
-/// What a kernel in a process of its own did besides answering; empty if nothing.
+/// Says what a kernel in a process of its own did besides answering; empty if nothing.
 std::string incidents(const KernelStatistics& s);
 
-/// What the witness's kind of finding means, and of a finding how often the kernel has it.
+/// Says what the witness's kind of finding means and, for a finding, how often the kernel has it.
 std::string finding_sentence(const KernelResult& k, const Witness& w);
 /// Where a witness comes from: family, case, cell of a mesh.
 inline std::string place_of(const Witness& w) {
@@ -66,7 +66,7 @@ std::string replay_command(const AuditReport& report, const KernelResult& k, con
 
 /// Who decided what is right: "decided: 900 by barycert's core, ...; confirmed: 60 by integers, ..., 0 disagreements".
 std::string oracle_line(const OracleCounts& o);
-/// What other programs measured, for a page: the flags matrix, the league of systems.
+/// Adds the measurements of other programs to a page: the flags matrix, the league of systems.
 void tell_others(Document& d, const std::vector<OtherResults>& others);
 
 // What programs read.

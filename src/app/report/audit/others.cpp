@@ -1,4 +1,4 @@
-// What `./run flags` and `./run systems` measured: read, and as tables that sort.
+// Measurements of `./run flags` and `./run systems`: read, and shown as tables that sort.
 
 #include "app/report/audit/audit_words.hpp"
 #include "audit/json_members.hpp"

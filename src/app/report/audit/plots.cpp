@@ -23,7 +23,7 @@ double error_bits(double units) {
     return std::max(std::log2(units), min_bits);
 }
 
-/// Those with something to show, largest worst factor first.
+/// Returns the kernels with something to show, largest worst factor first.
 std::vector<const KernelResult*> candidates(const AuditReport& report, Simplex simplex) {
     std::vector<const KernelResult*> list;
     for (const KernelResult& k : report.kernels) {

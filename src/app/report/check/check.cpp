@@ -1,4 +1,4 @@
-// What a check of a mesh found, for people.
+// Report on a check of a mesh, for people.
 
 #include "app/report/check/check_data.hpp"
 #include "app/report/check/check_pictures.hpp"
@@ -77,7 +77,7 @@ void tell_verdict(Document& d, const CheckReport& r, const std::string& name) {
           Tone::plain, For::page);
 }
 
-/// What must hold, and how often it does not.
+/// Adds the conditions, and how often each does not hold.
 void tell_conditions(Document& d, const CheckReport& r, const Mesh& mesh) {
     Listing table{.columns = {left("condition", 75), right("violations", 12)}};
     for (const ConditionRow& row : condition_rows(r, mesh)) {
@@ -125,7 +125,7 @@ void tell_defects(Document& d, const CheckReport& r, bool breaking, const std::s
                   .text = fmt::format(" {:>11}  {}", (f.at_least ? ">= " : "") + std::to_string(f.count), t.text),
                   .lines = {{.places = places_of(r, f)}}};
         if (f.curved_cells != 0) item.lines.push_back({curved_text(f)});
-        // That remedy repairs no folded cell.
+        // Turning cells, this remedy, repairs no folded cell.
         const bool folded = f.kind == DefectKind::mixed_orientation && r.find(DefectKind::same_side) != nullptr;
         if (!f.remedy().empty())
             item.lines.push_back(

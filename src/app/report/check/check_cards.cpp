@@ -17,7 +17,7 @@ struct Shown {
     double stretch = 1;  ///< of what is drawn upwards
 };
 
-/// What is drawn on a card: normalised vertices of one or two cells, and a common point.
+/// Contents of a card: normalised vertices of one or two cells, and a common point.
 struct Scene {
     std::size_t corners = 4;
     std::vector<Vector> points;

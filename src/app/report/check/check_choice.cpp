@@ -14,7 +14,7 @@ namespace {
 
 using Cells = std::array<Mesh::Index, 2>;
 
-/// Of exhibits with one kind of problem.
+/// The most exhibits with one kind of problem.
 constexpr std::size_t longest_queue = 200;
 
 /// Without cells that cannot be drawn; sorted, the second -1 if there is one.

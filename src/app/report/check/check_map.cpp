@@ -51,7 +51,7 @@ Eigen::AlignedBox3d box_of(const Mesh& mesh) {
     return box;
 }
 
-/// Those with defects.
+/// Returns the cells with defects.
 std::vector<Mesh::Index> problem_cells(const CheckReport& r, const Mesh& mesh) {
     DefectSet breaking = 0;
     for (const DefectText& t : defect_texts) {

@@ -50,7 +50,7 @@ bool drawable(const Mesh& mesh, std::size_t cell);
 /// Points in a box of edge 2 around the origin: their differences, rounded, as large as they go. In 2D z = 0.
 class Normalised {
 public:
-    /// Of `d` coordinates each.
+    /// Requires: points of `d` coordinates each.
     Normalised(int d, const std::vector<const double*>& points);
 
     const std::vector<Vector>& points() const { return points_; }
@@ -80,7 +80,7 @@ std::array<std::size_t, 2> sharpest_edge(Points tetrahedron);
 /// Along an edge of a tetrahedron, which so is a point, and its angle opens to the right.
 View along_edge(Points tetrahedron, std::array<std::size_t, 2> edge);
 
-/// Of length 1; any such vector, if `a` is zero.
+/// Returns the vector of length 1; any such vector, if `a` is zero.
 inline Vector unit(const Vector& a) {
     const double max = a.cwiseAbs().maxCoeff();
     return max > std::numeric_limits<double>::min() ? Vector((a / max).normalized()) : Vector(Vector::UnitX());
@@ -122,14 +122,15 @@ struct Measure {
     std::string_view infinite = "infinite (degenerate cells)";  ///< what an infinite value is
 };
 
-/// Those of the report as people see them: |volume|, the bits of accuracy that shape may cost, ratios, angles.
+/// Returns the report's measures as people see them: |volume|, the bits of accuracy that shape may cost, ratios,
+/// angles.
 std::vector<Measure> measures_of(const CheckReport& report);
 
 /// A figure a measure: bars, what was counted apart. Counts are logarithmic if the smallest is below 1 % of the
 /// largest.
 std::string histograms(const CheckReport& report);
 
-/// What these add to the style of pages. Two pictures stand side by side where there is room.
+/// Additions to the style of pages. Two pictures stand side by side where there is room.
 inline constexpr std::string_view check_style = R"(
 figure>img{max-width:100%;height:auto}
 .views{display:flex;flex-wrap:wrap;justify-content:space-around}

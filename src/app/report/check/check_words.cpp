@@ -5,7 +5,7 @@
 namespace barycert::report {
 namespace {
 
-/// Those that are given, once each.
+/// Returns the indices that are given, once each.
 std::vector<Mesh::Index> used(const auto& indices) {
     std::vector<Mesh::Index> list;
     for (const Mesh::Index i : indices) {
@@ -44,7 +44,7 @@ std::vector<ConditionRow> conditions_of(const CheckReport& report) {
                          : "neighbours and faces in the files are those of the cells"}};
 }
 
-/// What cells and surfaces have in common has the name of P1.
+/// A condition that cells and surfaces share has the name of P1.
 bool violates(const Defect& f, const ConditionRow& row) {
     if (row.name.empty()) return f.kind == DefectKind::overlapping_cells;
     const std::string_view of = defect_text(f.kind).condition;
@@ -159,7 +159,7 @@ std::string tetgen_sentence(const CheckReport& r) {
     if (s.regions.empty()) return "TetGen will have nothing to mesh: the triangles enclose no region";
     if (left == 0) return "TetGen will have nothing to mesh: hole points lie in all regions";
     std::string off;
-    // What is less does not matter to TetGen; notes tell it.
+    // A smaller distance does not matter to TetGen; notes tell it.
     if (s.relative_off_plane > tetgen_tolerance)
         off = fmt::format("; {} up to {:.3g} of its extent off {} plane, where TetGen's own tolerance is 1e-8",
                           counted(s.off_plane, "facet is", "facets are"), s.relative_off_plane,

@@ -16,7 +16,7 @@ struct ConditionRow {
 };
 std::vector<ConditionRow> condition_rows(const CheckReport& report, const Mesh& mesh);
 
-/// What the report counts: cells, triangles, or facets of a PLC.
+/// The word for what the report counts: cells, triangles, or facets of a PLC.
 inline const char* cell_word(const CheckReport& report) {
     return !report.surface ? "cell" : report.surface->plc ? "facet" : "triangle";
 }
@@ -24,7 +24,7 @@ inline const char* cell_word(const CheckReport& report) {
 inline std::string cells_text(const CheckReport& r) {
     return r.shapes == 0 ? cells_text(r.cells, 0, r.dimension) : cells_text(r.shapes, r.cells, r.dimension);
 }
-/// Whether TetGen gets what it needs, and why not. Of surfaces.
+/// Says, for surfaces, whether TetGen gets what it needs, and why not.
 std::string tetgen_sentence(const CheckReport& report);
 
 /// Cells with it took no part in P2 to P5, and may have no place in space.
@@ -60,7 +60,7 @@ std::vector<std::string> delaunay_sentences(const CheckReport& report);
 /// The outcome, distances, missing nodes, and as many violated facets as fit in `room`. Requires `conformity`.
 std::vector<std::string> conformity_sentences(const CheckReport& report, std::size_t room);
 
-/// What was done to a mesh, a line each.
+/// Describes what was done to a mesh, a line each.
 std::vector<std::string> fix_sentences(const FixedMesh& fixed);
 
 }  // namespace barycert::report

@@ -169,7 +169,8 @@ public:
         add(Named{std::move(name), {std::move(text)}, tone});
     }
 
-    /// What stands before all else on a mesh whose sides are not straight; nothing if they are. `mesh`: of several.
+    /// Adds, before all else, how a mesh with curved sides was taken; nothing if its sides are straight. `mesh`: which
+    /// of several.
     void curved(const CurvedCells& curved, const std::string& mesh = {});
     /// A member of the data, and what people are told of it.
     void figure(std::string_view key, Json value, std::string name, std::string text, Tone tone = Tone::plain) {

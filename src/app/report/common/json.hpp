@@ -1,4 +1,4 @@
-/// What programs read: records of keys and values, in the order of a report. JSON knows neither NaN nor infinity.
+/// Records of keys and values for programs, in the order of a report. JSON knows neither NaN nor infinity.
 #pragma once
 
 #include <algorithm>
@@ -31,7 +31,7 @@ inline Json figure(double x) {
     return std::clamp(x, -max, max);
 }
 
-/// Of figures that are never below 0: a negative number says that there is none.
+/// The same for figures that are never below 0: a negative number says that there is none.
 inline Json magnitude(double x) {
     return x >= 0 ? figure(x) : nullptr;
 }

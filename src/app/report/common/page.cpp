@@ -166,7 +166,7 @@ std::string paragraph(const std::string& markup, std::string_view style = {}) {
     return fmt::format("<p{}>{}</p>\n", attribute("class", style), markup);
 }
 
-/// Of a line: a command is to be copied.
+/// The words of a line: a command is to be copied.
 std::string words(const std::string& text, bool command) {
     return command ? "<code class=\"copy\">" + xml_escaped(text) + "</code>" : xml_escaped(text);
 }

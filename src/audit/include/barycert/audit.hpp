@@ -83,7 +83,7 @@ struct KernelResult {
     std::vector<Witness> witnesses;  ///< the worst of each reason, in the order of Finding, worst_weight_ulp last
 };
 
-/// What each kind of run says of itself.
+/// Facts that each kind of run reports about itself.
 struct AuditRun {
     Environment environment;
     std::uint64_t seed = 0, count = 0;

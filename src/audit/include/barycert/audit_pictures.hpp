@@ -1,5 +1,5 @@
-/// What the pictures of an audit show: signs around a triangle, kernels over the cells of a mesh, drift along
-/// triangles, and rules for texels.
+/// Pictures of an audit: signs around a triangle, kernels over the cells of a mesh, drift along triangles, and rules
+/// for texels.
 #pragma once
 
 #include "barycert/audit.hpp"
@@ -34,7 +34,7 @@ namespace barycert {
 // The experiment of Kettner, Mehlhorn, Pion, Schirra and Yap ("Classroom examples of robustness problems in geometric
 // computations", 2008): the point runs over a grid with steps of one ulp around (1/2, 1/2), the side lies on the
 // diagonal x = y from 12 to 24, and the sign of the weight of the vertex off that side tells on which side the kernel
-// sees the point. Exactly, the picture is a diagonal of zeros with one sign on either side. Of a tetrahedron the side
+// sees the point. Exactly, the picture is a diagonal of zeros with one sign on either side. The side of a tetrahedron
 // is a face in the plane x = y; a triangle3d lies in the plane z = 1/2; in perspective the depths are 1, 2, 3.
 
 struct SignPicture {
@@ -48,7 +48,7 @@ struct SignPicture {
     std::uint64_t wrong = 0;  ///< points whose sign is not the exact one
 };
 
-/// The case of point (i, j) of the grid. Preconditions: not a segment; 0 <= i, j < side.
+/// The case of point (i, j) of the grid. Requires: not a segment; 0 <= i, j < side.
 Case sign_case(Simplex s, bool perspective, int i, int j);
 
 /// One picture a kernel that is not for segments, in the order of the kernels; before the first kernel of each kind of
@@ -87,13 +87,13 @@ struct MeshMap : MeshFrame {
         std::vector<double> errors;
         std::uint64_t cases = 0, wrong = 0;  ///< with a finding
     };
-    /// Of those given that are for its cells: if they are more than max_kernels, the first of those that are no
-    /// variants (names with a second dot).
+    /// The given kernels that are for cells of this kind. If they are more than max_kernels: the first of those that
+    /// are no variants (names with a second dot).
     std::vector<OfKernel> kernels;
     std::size_t left_out = 0;  ///< how many more of these there are
 };
 
-/// Of the first meshes for whose cells there is a kernel. Points depend on the seed and the mesh alone.
+/// Returns maps of the first meshes for whose cells there is a kernel. Points depend on the seed and the mesh alone.
 std::vector<MeshMap> mesh_maps(const std::vector<Kernel>& kernels, const MeshSource& meshes, std::uint64_t seed,
                                int threads = 0);
 
@@ -108,7 +108,7 @@ struct DriftOptions {
     std::uint64_t seed = 1;
 };
 
-/// Of one kernel, over the cases of one size.
+/// Errors of one kernel over the cases of one size.
 struct DriftPoint {
     int size = 0;                  ///< of the box, in pixels
     std::uint64_t cases = 0;       ///< with a finite value
@@ -136,8 +136,8 @@ Result<DriftReport> measure_drift(const DriftOptions& options);
 Case drift_case(int size, std::uint64_t seed, std::uint64_t index);
 
 // The audit of rules that find the texel of a texture coordinate. A row of `size` texels covers the coordinates u from
-// 0 to 1: texel k those from k / size up to (k + 1) / size, the last one u = 1 too. What lies beyond belongs to the
-// first or last texel (clamp) or to the copies of the row side by side (repeat). Rules are held against exact integers
+// 0 to 1: texel k those from k / size up to (k + 1) / size, the last one u = 1 too. Coordinates beyond belong to the
+// first or last texel (clamp) or to the copies of the row side by side (repeat). Rules are compared with exact integers
 // where such code is known to fail: at and within a few ulps of the borders of texels, at and beyond both ends,
 // subnormal, huge.
 

@@ -124,7 +124,7 @@ constexpr std::string_view name(ClaimRule r) {
     return std::array<std::string_view, 4>{"strict", "exact", "tolerant", "own"}[static_cast<std::size_t>(r)];
 }
 
-/// What can go wrong at a point. The first four where a cell holds the point, the last where none does.
+/// Faults at a point. The first four occur where a cell holds the point, the last where none does.
 enum class ClaimFault : std::uint8_t {
     gap,              ///< no cell claims it
     several,          ///< more than one does; right where it lies on what they share

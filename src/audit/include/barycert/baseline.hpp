@@ -48,7 +48,8 @@ struct BaselineChange {
 
 struct BaselineComparison {
     std::uint64_t compared = 0;  ///< pairs of kernel and family
-    /// Of those: given up in one audit, so that not_run alone is compared, or in both, so that nothing is.
+    /// Pairs, among those compared, whose kernel was given up: in one audit, so that not_run alone is compared, or in
+    /// both, so that nothing is.
     std::uint64_t given_up = 0;
     std::uint64_t not_now = 0;           ///< pairs of the baseline that this audit does not have
     std::uint64_t not_before = 0;        ///< pairs of this audit that the baseline does not have

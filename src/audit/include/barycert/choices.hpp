@@ -20,14 +20,15 @@ struct KernelChoice {
     std::optional<double> class_tolerance = {};  ///< of kernels that have no rule of their own
 };
 
-/// Of the catalogue, in its order, then those of the libraries. Error: a name that none has; a library that cannot be
-/// loaded; two with one name.
+/// Returns the chosen kernels of the catalogue, in its order, then those of the libraries. Error: a name that no kernel
+/// has; a library that cannot be loaded; two kernels with one name.
 Result<std::vector<Kernel>> choose_kernels(const KernelChoice& choice);
 
 /// Exactly one: that of the library, or the one that the name has. Error also: both are given, or neither.
 Result<Kernel> choose_kernel(const KernelChoice& choice);
 
-/// Those that match one of the names, in their order; all if there is none. Error: a name that none has.
+/// Returns the families that match one of the names, in their order; all if there is no name. Error: a name that no
+/// family has.
 Result<std::vector<Family>> choose_families(const std::vector<std::string>& names);
 
 }  // namespace barycert

@@ -47,7 +47,7 @@ struct Family {
 
     /// Fills `c` (its simplex is set, all else zero). `index` is the case's number.
     void (*recipe)(Case& c, base::Random& random, std::uint64_t index) = nullptr;
-    /// Of a family from meshes: returns the draw that the simplex is.
+    /// Set for a family from meshes: makes the simplex, and returns the draw that it is.
     audit::Draw (*mesh_recipe)(base::Random& random, const MeshSource& meshes, Simplex s) = nullptr;
 
     bool needs_mesh = false;

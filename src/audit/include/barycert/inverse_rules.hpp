@@ -31,7 +31,7 @@ struct InverseAnswer {
     double value = 0;
 };
 
-/// What is right. Without a proof that the map is injective the region is `degenerate`, and there is nothing else.
+/// The right answer. Without a proof that the map is injective the region is `degenerate`, and there is nothing else.
 struct ExactInverse {
     Region region = Region::degenerate;
     /// Correctly rounded, of points in the cell; of x, of a pyramid the third alone, the others 0. NaN: not proved.
@@ -39,7 +39,7 @@ struct ExactInverse {
     double value = 0;
 };
 
-/// Precondition: a type of the rules (9, 12, 13, 14), and as many numbers as its nodes and axes ask for.
+/// Requires: a type of the rules (9, 12, 13, 14), and as many numbers as its nodes and axes ask for.
 ExactInverse exact_inverse(const InverseCase& c);
 
 struct InverseRule {
@@ -59,10 +59,10 @@ struct InverseFamily {
 const std::vector<InverseRule>& inverse_rules();
 const std::vector<InverseFamily>& inverse_families();
 
-/// Depends on these alone. Values are random, from -1 to 1. Precondition: a type of the rules (9, 12, 13, 14).
+/// Depends on these alone. Values are random, from -1 to 1. Requires: a type of the rules (9, 12, 13, 14).
 InverseCase make_inverse_case(const InverseFamily& family, std::uint8_t type, std::uint64_t seed, std::uint64_t index);
 
-/// What a rule answers to the cases of a family.
+/// Counts of a rule's answers to the cases of a family.
 struct InverseTally {
     std::size_t family = 0;  ///< index into inverse_families()
     std::uint64_t cases = 0;

@@ -57,8 +57,8 @@ struct Kernel {
 
     /// The process of a kernel that runs in one of its own: then the functions above, `value` aside, are null.
     std::shared_ptr<kernels::Host> host;
-    /// Of a callable: the exception of its last call, in words, after which `weights` returned 1; empty if it raised
-    /// none.
+    /// Set for a callable: returns the exception of its last call, in words, after which `weights` returned 1; empty if
+    /// it raised none.
     std::string (*raised)() = nullptr;
     std::string note;  ///< what was noticed when its library was loaded; may be empty
 };
@@ -66,7 +66,7 @@ struct Kernel {
 /// All kernels that run on this machine, grouped by simplex, in a fixed order.
 const std::vector<Kernel>& catalogue();
 
-/// Those of the catalogue whose name matches the glob.
+/// Returns the kernels of the catalogue whose name matches the glob.
 std::vector<Kernel> kernels_matching(std::string_view glob);
 
 /// The region that `kernel` claims for a point, by its weights: degenerate if it declared so or a weight is not finite.

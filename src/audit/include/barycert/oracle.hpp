@@ -34,14 +34,14 @@ struct OracleAnswer {
     bool narrow = false;                 ///< machine words were wide enough (for counting; never changes an answer)
 };
 
-/// Of every degenerate case.
+/// The answer to every degenerate case.
 inline OracleAnswer degenerate_answer() {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     return {
         .region = Region::degenerate, .feature = Feature::degenerate, .weights = {nan, nan, nan, nan}, .value = nan};
 }
 
-/// Precondition: all numbers of the case are finite, and its depths are above zero.
+/// Requires: all numbers of the case are finite, and its depths are above zero.
 OracleAnswer ask_oracle(const Case& c);
 
 /// The same by CGAL's kernel of exact predicates and exact constructions (Epeck): orientations for the signs,
@@ -57,12 +57,12 @@ namespace exact {
 OracleAnswer ask_wide(const Case& c);
 }  // namespace exact
 
-/// Exact (sum of weights) - 1, rounded once. Precondition: weights finite.
+/// Exact (sum of weights) - 1, rounded once. Requires: weights finite.
 double partition_residual(std::span<const double> weights);
 
 /// Exact Euclidean length of (sum of weight times vertex) - p, rounded once, where p is the case's point, or its
 /// projection for a triangle3d or segment. For perspective, the distance in the window from p to the projection of the
-/// point that the weights give before the projection; infinite if that has depth zero. Preconditions: weights finite,
+/// point that the weights give before the projection; infinite if that has depth zero. Requires: weights finite,
 /// simplex not degenerate.
 double reproduction_residual(const Case& c, std::span<const double> weights);
 
@@ -82,16 +82,16 @@ enum class IdentityVerdict : std::uint8_t {
     undefined,  ///< degenerate, or every choice of auxiliary lines meets a vertex or runs along a side
 };
 
-/// Precondition: c.simplex == Simplex::triangle, finite coordinates.
+/// Requires: c.simplex == Simplex::triangle, finite coordinates.
 IdentityVerdict bilinear_is_barycentric(const Case& c);
 
-/// Precondition: c.simplex == Simplex::tetrahedron, finite coordinates.
+/// Requires: c.simplex == Simplex::tetrahedron, finite coordinates.
 IdentityVerdict trilinear_is_barycentric(const Case& c);
 
 /// Perspective-correct interpolation is ray casting: the ray from the eye through (x, y, 1) is met with the plane of
 /// the triangle before the projection, (x_i w_i, y_i w_i, w_i), and the weights of the common point are read off ratios
 /// of areas in that plane; they are compared with the weights of 1/Z = sum alpha_i / w_i. `undefined` where there are
-/// no weights. Precondition: c.perspective, finite coordinates, depths above zero.
+/// no weights. Requires: c.perspective, finite coordinates, depths above zero.
 IdentityVerdict perspective_is_ray_casting(const Case& c);
 
 // The gradient of a linear field, by the oracle: exact integers, rounded once, nothing shared with core.
@@ -106,14 +106,14 @@ struct GradientAnswer {
     std::array<double, 3> gradient{};  ///< correctly rounded; NaN if degenerate
 };
 
-/// Of the field with c.values at the vertices; the point has no part in it. Preconditions: triangle or tetrahedron,
-/// everything finite.
+/// Returns the gradient of the field with c.values at the vertices; ignores the point. Requires: triangle or
+/// tetrahedron, everything finite.
 GradientAnswer oracle_gradient(const Case& c);
 
 /// Quadratic interpolation on a straight-sided cell with nodes amid its edges, likewise: sum l_i (2 l_i - 1) f_i + sum
 /// 4 l_i l_j f_ij with the exact weights l of the point, f = c.values at the corners and `mids` on the edges 01 12 02
 /// (triangle) or 01 12 02 03 13 23 (tetrahedron), correctly rounded; NaN if degenerate.
-/// Preconditions: triangle or tetrahedron, everything finite, a value for each edge.
+/// Requires: triangle or tetrahedron, everything finite, a value for each edge.
 double oracle_quadratic_value(const Case& c, std::span<const double> mids);
 
 /// The texel of a finite coordinate u in a row of `size` >= 1 texels that covers 0 to 1: floor(u size), brought into

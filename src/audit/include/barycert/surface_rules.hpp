@@ -54,7 +54,7 @@ const std::vector<SurfaceFamily>& surface_families();
 
 SurfaceCase make_surface_case(const SurfaceFamily& family, std::uint64_t seed, std::uint64_t index);
 
-/// What a rule answers to the cases of a family.
+/// Counts of a rule's answers to the cases of a family.
 struct SurfaceTally {
     std::size_t family = 0;                     ///< index into surface_families()
     std::uint64_t cases = 0, yes = 0;           ///< the exact answer is yes; of a distance: it is 0

@@ -28,7 +28,7 @@ struct Witness {
     Case c;
 };
 
-/// Case `index` of a family. `witness`, if given, is told the case and how it is made. Preconditions:
+/// Case `index` of a family. `witness`, if given, is told the case and how it is made. Requires:
 /// family.applies_to(s); family.needs_mesh implies meshes.supplies(s).
 Case make_case(const Family& family, Simplex s, std::uint64_t seed, std::uint64_t index, const MeshSource& meshes,
                Witness* witness = nullptr);
@@ -47,8 +47,8 @@ struct Replay {
     OracleAnswer exact;
     int affine_dimension = 0;  ///< of the simplex
 
-    /// Of interpolation along auxiliary lines or, for perspective, ray casting; `undefined` for segments and
-    /// triangle3d.
+    /// Verdict on an identity: interpolation along auxiliary lines or, for perspective, ray casting gives the same
+    /// weights. `undefined` for segments and triangle3d.
     IdentityVerdict identity = IdentityVerdict::undefined;
     std::vector<KernelAnswer> answers;  ///< of the kernels for such cases
     std::string not_reproduced;  ///< why it no longer shows its finding; empty if it does, or names no kernel or reason

@@ -18,8 +18,8 @@
 /// Foreign code that the library calls (progress, sinks of grids, kernels under audit, factories of VTK) runs in the
 /// exact environment; renew() sets it again after that code.
 ///
-/// What no call can set is refused at compile time (strict_math.hpp) or reported by check_environment: contraction,
-/// excess precision.
+/// Contraction and excess precision, which no call can set, are refused at compile time (strict_math.hpp) or reported
+/// by check_environment.
 ///
 /// Exception flags are not preserved.
 #pragma once

@@ -12,7 +12,7 @@
 
 namespace barycert {
 
-/// What went wrong with an input, in the parts an error message needs. Empty parts are left out of the message.
+/// An input's fault, in the parts that an error message needs. The message leaves out empty parts.
 struct Error {
     std::string what = {};  ///< one clause: what could not be done
     std::string file = {};  ///< path as the user gave it
@@ -51,13 +51,13 @@ public:
     bool has_value() const { return std::holds_alternative<T>(state_); }
     explicit operator bool() const { return has_value(); }
 
-    /// Precondition: has_value().
+    /// Requires: has_value().
     T& operator*() { return std::get<T>(state_); }
     const T& operator*() const { return std::get<T>(state_); }
     T* operator->() { return &std::get<T>(state_); }
     const T* operator->() const { return &std::get<T>(state_); }
 
-    /// Precondition: !has_value().
+    /// Requires: !has_value().
     const Error& error() const { return std::get<Error>(state_); }
 
     /// The value; throws Exception if there is none.
@@ -78,7 +78,8 @@ private:
 struct Done {};
 using Status = Result<Done>;
 
-// What was left out, converted or guessed on the way from files to files: nothing of that happens in silence.
+// Notes of all that was left out, converted or guessed on the way from files to files: nothing of that happens in
+// silence.
 
 struct Note {
     enum class Kind : std::uint8_t {

@@ -72,7 +72,7 @@ struct Case {
     double vertex(int i, int axis) const { return vertices[static_cast<std::size_t>(stride() * i + axis)]; }
     double& vertex(int i, int axis) { return vertices[static_cast<std::size_t>(stride() * i + axis)]; }
 
-    /// The w of a vertex. Precondition: perspective.
+    /// The w of a vertex. Requires: perspective.
     double depth(int i) const { return vertex(i, 2); }
     double& depth(int i) { return vertex(i, 2); }
 };

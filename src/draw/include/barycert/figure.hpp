@@ -3,7 +3,7 @@
 ///
 /// A surface is drawn by scene.hpp's rules. Lines are as wide everywhere, and hidden where a surface is before them.
 /// Surfaces in space are lit: their colour is multiplied by 0.35 to 1; light falls from the upper left behind the
-/// viewer, on both sides of a triangle (Lambert). Those in the plane are drawn from above, without light, on axes of
+/// viewer, on both sides of a triangle (Lambert). Surfaces in the plane are drawn from above, without light, on axes of
 /// one scale.
 #pragma once
 
@@ -71,7 +71,8 @@ std::optional<std::pair<double, double>> angles_of(std::string_view view);
 
 struct FigureOptions {
     RasterSize size{800, 600};  ///< of the whole picture; of files of vectors in 96ths of an inch
-    /// Of what is seen in the plane, without axes, bar and title: then it is filled, and the whole is larger.
+    /// The size of the window that shows a figure in the plane, without axes, bar and title. Where it is given, the
+    /// figure fills the window, and the whole picture is larger.
     std::optional<RasterSize> window = {};
     double scale = 0;                     ///< pixels for a unit of the plane, in place of `window`; 0: not given
     double resolution = 1;                ///< pixels of a .png for one of `size`
@@ -104,7 +105,7 @@ struct Figure {
     FigureOptions options = {};
 };
 
-/// What became of the values of a grid.
+/// Counts of what became of the values of a grid.
 struct GridCounts {
     std::uint64_t drawn = 0;       ///< with a colour
     std::uint64_t not_finite = 0;  ///< valid but NaN or infinite, or without a logarithm: the background

@@ -120,7 +120,7 @@ Result<Image> read_png(const std::string& path);
 /// Writes 8-bit RGBA in sRGB, whole or not at all. Error: as check_image; a side above a million; it cannot be written.
 Status write_png(const std::string& path, const Image& image);
 
-/// What lies beyond the picture.
+/// Rule for texels beyond the picture.
 enum class Wrap : std::uint8_t {
     clamp,   ///< its rim
     repeat,  ///< the picture again
@@ -212,15 +212,15 @@ struct ClippedSegment {
     std::vector<double> a, b;  ///< the ends of what lies inside, in the order of the segment; equal if that is a point
 };
 
-/// Clips the segment from a to b, each a row of `dimension` coordinates (1 to 3) and any attributes. What lies on a
-/// bound is inside. Error: rows that differ in length or are too short; a number that is not finite (bounds of a box
-/// may be infinite).
+/// Clips the segment from a to b, each a row of `dimension` coordinates (1 to 3) and any attributes. A point on a bound
+/// is inside. Error: rows that differ in length or are too short; a number that is not finite (bounds of a box may be
+/// infinite).
 Result<ClippedSegment> clip_segment(int dimension, std::span<const double> a, std::span<const double> b,
                                     const HalfSpace& bound);
 Result<ClippedSegment> clip_segment(int dimension, std::span<const double> a, std::span<const double> b,
                                     const ClipBox& box);
 
-/// What became of a triangle.
+/// Fate of a triangle.
 enum class Clip : std::uint8_t {
     inside,   ///< all of it is inside
     cut,      ///< part of it

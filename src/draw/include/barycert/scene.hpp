@@ -63,8 +63,8 @@ inline constexpr int max_samples = 8;
 
 struct Scene {
     RasterSize size;
-    /// Of a pixel, across and up, 1 to max_samples: its colour is the mean of theirs in linear light, weighted with the
-    /// opacity. Each is covered as R1 says of a pixel of a finer raster.
+    /// Samples of a pixel across and up, 1 to max_samples: its colour is the mean of theirs in linear light, weighted
+    /// with the opacity. Each sample is covered as R1 says of a pixel of a finer raster.
     int samples = 1;
     Rgba background{255, 255, 255, 255};
     std::vector<double> positions;            ///< x, y, z, w of each vertex; w is 1 for a point
@@ -80,8 +80,8 @@ struct Scene {
     Rounding rounding = Rounding::plain;
 };
 
-/// What became of the triangles, and of pixels or, where these have several, of samples. drawn + outside + degenerate +
-/// between_pixels is `triangles`.
+/// Counts of what became of the triangles and of the pixels, or of the samples where pixels have several. drawn +
+/// outside + degenerate + between_pixels is `triangles`.
 struct RenderCounts {
     std::uint64_t triangles = 0;
     std::uint64_t drawn = 0;           ///< cover a pixel's centre, if perhaps behind others

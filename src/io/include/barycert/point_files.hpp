@@ -1,8 +1,8 @@
 /// Streams of points: CSV and NPY files, block by block, so that memory does not grow with their number; the nodes of
 /// .node files and meshes.
 ///
-/// Coordinates are finite doubles (but see PointOptions); decimal numbers are rounded to nearest, ties to even. What
-/// cannot be read without a guess is an Error.
+/// Coordinates are finite doubles (but see PointOptions); decimal numbers are rounded to nearest, ties to even. A file
+/// that cannot be read without a guess is an Error.
 ///
 /// The coordinates are the columns that PointOptions names; or x, y, z; Points:0, Points:1, Points:2; or Points_0,
 /// Points_1, Points_2, in any case and any place; or, in a file that names none, all columns, if they are as many as
@@ -36,7 +36,7 @@ namespace barycert {
 
 /// Which columns of a file of points are taken for what.
 struct PointOptions {
-    /// Those of the coordinates, in the order of the axes: names, or numbers from 1. One text may hold several, with
+    /// Columns of the coordinates, in the order of the axes: names, or numbers from 1. One text may hold several, with
     /// commas between them. Empty: see above.
     std::vector<std::string> columns = {};
 
@@ -44,12 +44,12 @@ struct PointOptions {
     /// files that name none are column1, column2, ...
     std::vector<std::string> keep = {};
 
-    /// nan: points that are not finite are given as they are, and an empty field of a CSV file as NaN. Not for nodes of
-    /// meshes, and not for a z that must be 0.
+    /// nan: points that are not finite are passed on as they are, and an empty field of a CSV file is NaN. Nodes of
+    /// meshes, and a z that must be 0, stay errors.
     NonfinitePoints nonfinite_points = NonfinitePoints::error;
 
-    /// Of CSV: columns that are carried through become integers or numbers, if all their values are; texts otherwise.
-    /// The file is read twice, and must not be a pipe. Without it they are texts, as they stand in the file.
+    /// For CSV: carried columns become integers or numbers, if all their values are; texts otherwise. The file is read
+    /// twice, and must not be a pipe. If false, carried columns are texts, as they stand in the file.
     bool typed = false;
 };
 
@@ -74,7 +74,7 @@ public:
     /// Moves the carried columns of the points of the last read() to `columns`, a value a point.
     virtual void take_carried(std::vector<Column>& columns) { columns.clear(); }
 
-    /// What of the file is left out, converted or guessed. Known when opened.
+    /// Returns what of the file is left out, converted or guessed. Known when opened.
     virtual Notes notes() const { return {}; }
 };
 

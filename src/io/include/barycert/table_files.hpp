@@ -17,7 +17,7 @@
 
 namespace barycert {
 
-/// What a file of rows has: points, cell, feature, the columns of the fields, and perhaps distances.
+/// Columns of a file of rows: points, cell, feature, the columns of the fields, and perhaps distances.
 struct TableFormat {
     int dimension = 3;
     std::vector<TableField> fields = {};

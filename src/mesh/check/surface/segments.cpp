@@ -1,4 +1,4 @@
-// What a PLC has besides triangles: segments and nodes of its own, and how flat its facets are.
+// Checks the parts of a PLC that are no triangles: segments and nodes of its own, and how flat its facets are.
 
 #include <map>
 #include <set>

@@ -38,13 +38,13 @@ void check_all(SurfaceParts& s, const Plc* plc) {
     s.stage("triangles");
     if (!check_triangles(s) || s.enough()) return;
     s.stage("intersections");
-    // What one thread does alone is done beside the rest.
+    // Steps that one thread does alone run beside the rest.
     tbb::task_group beside;
     beside.run([&] { link_triangles(s); });
     std::vector<CellPair> pairs = find_intersections(s);
     beside.wait();
     if (s.enough()) return;
-    // What breaks S1 is left out of all else.
+    // Triangles that break S1 are left out of all else.
     s.embedded = !s.defects.has([](const DefectText& t) { return t.condition == "S2"; });
     s.stage("edges and nodes");
     connect_triangles(s);

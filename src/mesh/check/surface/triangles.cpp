@@ -4,7 +4,7 @@ namespace barycert::check {
 
 namespace {
 
-/// Of nodes with finite coordinates. Those of triangles are known.
+/// Counts the places of nodes with finite coordinates. The places of the triangles' nodes are known.
 std::uint64_t count_places(const SurfaceParts& s, const std::vector<std::uint8_t>& finite) {
     std::vector<std::uint8_t> known(finite.size(), 0);
     std::uint64_t count = 0;
@@ -24,7 +24,7 @@ std::uint64_t count_places(const SurfaceParts& s, const std::vector<std::uint8_t
     others.erase(std::unique(others.begin(), others.end(), [&](auto a, auto b) { return at(a) == at(b); }),
                  others.end());
     count += others.size();
-    // Those at the place of a node of a triangle, once each.
+    // Leaves out places of triangles' nodes, once each: they are counted already.
     std::vector<std::array<double, 3>> met;
     for (std::size_t n = 0; n < finite.size(); ++n) {
         if (known[n] != 0 && std::ranges::binary_search(others, at(n), {}, at)) met.push_back(at(n));

@@ -54,16 +54,16 @@ struct CheckOptions {
     int threads = 0;           ///< 0: one per core
     bool delaunay = false;     ///< test every interior facet
     const Plc* plc = nullptr;  ///< test conformity to its facets (tetrahedra only)
-    /// Of check_plc: facets are turned, as polygons of surfaces are, and two are turned alike or not.
+    /// For check_plc: facets are turned, as polygons of surfaces are, and two are turned alike or not.
     bool turned_facets = false;
     std::size_t examples = 10;  ///< max number of places kept of each defect
     std::size_t contacts = 20;  ///< max number of pairs of cells for which a common point is computed
-    /// Boundary nodes of no common cell nearly coincide if they lie at most this times the shortest edge of the
-    /// boundary at either one apart, by distances in plain double; 0: none are looked for. Likewise a node nearly hangs
-    /// on an edge or a facet of the boundary, but at most at a sixteenth of an edge.
+    /// Largest distance of nodes that nearly coincide, relative to the shortest edge of the boundary at either node; 0:
+    /// none are looked for. Only boundary nodes that no cell has both of count; distances are in plain double. A node
+    /// nearly hangs on an edge or a facet of the boundary by the same ratio, but at most by a sixteenth of an edge.
     double near = 1e-3;
     /// Stop at the first defect that breaks the certificate. The verdict is the same; the report then has that defect,
-    /// maybe others, the orientations, and nothing else.
+    /// perhaps others, the orientations, and nothing else.
     bool verdict_only = false;
     Curved curved = Curved::isoparametric;  ///< which cells count as curved: with `exact`, those off by rounding, too
     std::function<void(const char* stage)> progress = {};  ///< called as each stage begins, from the calling thread
@@ -92,7 +92,7 @@ struct CheckReport {
     std::optional<DelaunayReport> delaunay;
     std::optional<ConformityReport> conformity;
 
-    /// What users know the cells as, and what the reader of the mesh has told: those of Mesh. All other members count
+    /// Numbers by which users know the cells, and notes of the mesh's reader: those of Mesh. All other members count
     /// cells from 0 as in memory; reports translate.
     std::vector<Mesh::Index> cell_numbers;
     Notes notes;
@@ -105,14 +105,15 @@ struct CheckReport {
     }
 
     bool certified() const { return certificate.verdict() == Verdict::certified; }
-    /// Null if there is no such defect.
+    /// Returns the defect of that kind; nullptr if there is none.
     const Defect* find(DefectKind kind) const;
 };
 
+/// Checks a mesh. The report has the verdict, defects, measures and counts.
 CheckReport check_mesh(const Mesh& mesh, const CheckOptions& options = {});
 
-/// Takes `threads`, `turned_facets`, `examples`, `contacts`, `near`, `verdict_only`, `progress`. Time O(n log n); pairs
-/// as check_mesh.
+/// Check a surface or a PLC. These options count: `threads`, `turned_facets`, `examples`, `contacts`, `near`,
+/// `verdict_only`, `progress`. Time O(n log n), and for pairs as check_mesh.
 CheckReport check_surface(const Surface& surface, const CheckOptions& options = {});
 CheckReport check_plc(const Plc& plc, const CheckOptions& options = {});
 

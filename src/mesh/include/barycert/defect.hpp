@@ -12,7 +12,8 @@
 
 namespace barycert {
 
-/// What they are, and which break the certificate, stands in defect_texts. Their numbers are the bits of DefectSet.
+/// Kinds of defects. defect_texts says what they are, and which break the certificate. Their numbers are the bits of
+/// DefectSet.
 enum class DefectKind : std::uint8_t {
     bad_structure,
     index_out_of_range,
@@ -40,7 +41,7 @@ enum class DefectKind : std::uint8_t {
     crack,
     missing_cell,
     near_hanging,  ///< CheckOptions::near
-    // Of surfaces and PLCs.
+    // Defects of surfaces and PLCs.
     bad_facet,
     degenerate_triangle,
     duplicate_triangle,
@@ -184,8 +185,8 @@ struct DefectPlace {
     std::array<Mesh::Index, 2> cells{-1, -1};
     std::array<Mesh::Index, 3> nodes{-1, -1, -1};
     const char* detail = "";  ///< which kind, where a defect has several
-    /// Of the facet that those meet or would join, of the edge or facet that the node lies within or nearly, and the
-    /// fourth node of a missing cell.
+    /// Nodes of the facet that those meet or would join, of the edge or facet that the node lies within or nearly, and
+    /// the fourth node of a missing cell.
     std::array<Mesh::Index, 3> other_nodes{-1, -1, -1};
     double distance = 0;  ///< of near nodes, or of a node from what it nearly lies within; rounded
     double relative = 0;  ///< that over the shortest edge of the boundary at these nodes

@@ -43,7 +43,7 @@ struct FixReport {
     std::vector<MergedField> fields;           ///< where values differ: those of the node that is kept stay
     std::vector<MergedField> cell_fields;      ///< likewise of duplicate cells: fields, then labels
     std::uint64_t differing_face_markers = 0;  ///< twins of another marker than the face that is kept
-    /// Entries of Mesh::neighbours that were others, where no cell was dropped: else all are new.
+    /// Entries of Mesh::neighbours that changed, where no cell was dropped; otherwise all are new.
     std::uint64_t changed_neighbours = 0;
 
     bool changed() const {
@@ -51,11 +51,11 @@ struct FixReport {
     }
 };
 
-/// A repaired copy of the mesh; `report` says what was done. Merged nodes are taken out and the others numbered anew,
-/// as are cells; all else stays with its node, cell or face. The last two vertices of turned cells are swapped.
-/// Neighbours, if any, are computed anew if nodes or cells went. Whether the copy is a partition check_mesh tells:
-/// facets at a dropped degenerate cell may be left unmatched. Errors: arrays of wrong sizes, indices out of range, a
-/// distance that is negative or not finite.
+/// Returns a repaired copy of the mesh; `report` says what was done. Merged nodes are taken out and the others numbered
+/// anew, and so are cells; all else stays with its node, cell or face. The last two vertices of turned cells are
+/// swapped. Neighbours, if any, are computed anew if nodes or cells went. The copy need not be a partition: facets at a
+/// dropped degenerate cell may be left unmatched; check_mesh tells. Error: arrays of wrong sizes; indices out of range;
+/// a distance that is negative or not finite.
 Result<Mesh> fix_mesh(const Mesh& mesh, const FixOptions& options, FixReport& report);
 
 }  // namespace barycert

@@ -14,8 +14,8 @@ struct Grid {
     std::array<std::int64_t, 3> counts{1, 1, 1};
     std::array<double, 3> origin{}, spacing{}, last{};
 
-    /// Returns origin + i * spacing, each operation rounded; for the last point `last`, to the bit, so that a grid over
-    /// a box ends on it.
+    /// Returns origin + i * spacing, each operation rounded. For the last point it returns `last`, to the bit, so that
+    /// a grid over a box ends on the box.
     double coordinate(std::size_t axis, std::int64_t i) const;
     std::uint64_t layer_size() const {
         return static_cast<std::uint64_t>(counts[0]) * static_cast<std::uint64_t>(counts[1]);
@@ -23,8 +23,8 @@ struct Grid {
     std::uint64_t point_count() const { return layer_size() * static_cast<std::uint64_t>(counts[2]); }
 };
 
-/// The grid from low to high, ends included. An axis of one point has it in the middle. In 2D third entries are
-/// ignored. Error: another dimension than 2 or 3; a count below 1 or above max_on_axis, more than 2^62 points; bounds
+/// Returns the grid from low to high, ends included. An axis of one point has it in the middle. In 2D third entries are
+/// ignored. Error: a dimension other than 2 or 3; a count below 1 or above max_on_axis; more than 2^62 points; bounds
 /// that are not finite and ascending (low < high where there are several points).
 Result<Grid> grid_over(int dimension, const std::array<std::int64_t, 3>& counts, const std::array<double, 3>& low,
                        const std::array<double, 3>& high);
@@ -33,8 +33,9 @@ Result<Grid> grid_over(int dimension, const std::array<std::int64_t, 3>& counts,
 Result<Grid> grid_spaced(int dimension, const std::array<double, 3>& spacing, const std::array<double, 3>& low,
                          const std::array<double, 3>& high);
 
-/// Returns the grid of a VTI file, whose readers compute the last point as all others, origin + i * spacing. That is
-/// `last` nearly always, else, where no double as spacing leads there, below it by an ulp or two of the larger end.
+/// Returns the grid as readers of VTI files see it: they compute the last point like all others, as origin + i *
+/// spacing. That is nearly always `last`; where no double as spacing leads there, it is below `last` by an ulp or two
+/// of the larger end.
 Grid as_in_vti(Grid grid);
 
 /// The bounding box of the nodes of cells; zeros if there are no cells.
@@ -46,13 +47,13 @@ Bounds3 bounds_of_cells(const Mesh& mesh);
 // Fields on a regular grid, cell by cell: each cell finds the grid points that it contains, which is many times faster
 // than locating each point.
 
-/// Takes some layers of a grid (2D: lines), whole, in the order of the grid's points: `first_row` is the number of the
-/// first point, `points` is empty. The view is gone after the call. Calls come in order, from any thread.
+/// Receives some whole layers of a grid (2D: lines), in the order of the grid's points: `first_row` is the number of
+/// the first point, `points` is empty. The view is valid during the call only. Calls come in order, from any thread.
 using GridSink = std::function<Status(const TableView&)>;
 
 /// Passes to `sink` the rows that Sampler::sample returns for the points of the grid, bit for bit, and returns their
-/// counts. (LocationCounts::tests, and which tier decided a value, may differ.) Memory is that of a few layers for each
-/// thread, and once more. Errors of Sampler::sample, and that of `sink`, after which it stops.
+/// counts. (LocationCounts::tests, and which tier decided a value, may differ.) Takes twice the memory of a few layers
+/// for each thread. Errors of Sampler::sample; an Error of `sink`, after which it stops.
 Result<SampleCounts> resample(const Sampler& sampler, const Grid& grid, const SampleOptions& options,
                               const GridSink& sink);
 

@@ -4,13 +4,13 @@
 /// each point its owner, which is the cell of lowest index among all closed cells that contain it, and the feature of
 /// that cell on which it lies.
 ///
-/// Curved cells (BuildOptions::curved) are the images of their reference cells under the isoparametric map, if
-/// it is proved to be injective: then a point is in the cell whose map takes a point of the reference cell there. No
-/// node of such a mesh is outside, also where it is off the middle of a straight edge by rounding. Points on curved
-/// faces are told by enclosures of 250 bits and rational numbers. That curved cells do not overlap is not proved: a
-/// point inside the cell whose straight simplex has it is not looked for elsewhere.
+/// Curved cells (BuildOptions::curved) are the images of their reference cells under the isoparametric map, if that is
+/// proved to be injective. A point is in the cell whose map takes a point of the reference cell there. No node of such
+/// a mesh is outside, even if rounding moved it off the middle of a straight edge. Points on curved faces are
+/// recognised by enclosures of 250 bits and rational numbers. Nothing proves that curved cells do not overlap: if a
+/// point is inside a cell whose straight simplex contains it, no other cell is tried.
 ///
-/// What holds (each law is a test of that name in tests/mesh/locate):
+/// Laws (each is a test of that name in tests/locate):
 ///   L1  A point in the union of the closed cells of non-zero volume is always found, and its owner is the lowest cell
 ///       index among all cells that contain it, whatever their orientation, overlapping cells included. `locate_all`
 ///       returns all of them.
@@ -18,17 +18,18 @@
 ///   L3  A degenerate cell owns nothing.
 ///   D1  Results depend on the points and the mesh alone, not on threads, SIMD target, order of points, or the method.
 ///   N1  `nearest` is exact for all finite doubles, near and far: no point of a cell of non-zero volume is nearer than
-///       the one returned, and its cell has the lowest index among all that have a point as near. Of cells with curved
-///       sides it is the nearest point of these; which of two is nearer is told by 250 bits or rational numbers, and
-///       where no proof is found that a point is the nearest, none is nearer by more than samplers count.
+///       the one returned, and its cell has the lowest index among all that have a point as near. If cells have curved
+///       sides, it is the nearest point of these sides: 250 bits or rational numbers tell which of two is nearer. Where
+///       no proof is found that a point is the nearest, none is nearer by more than the bound that samplers count
+///       (SampleCounts::max_off).
 ///   N2  Its cost does not grow with the distance: a point 1e300 mesh sizes away visits about as many cells as one ten
 ///       sizes away.
 ///
-/// Method. While the index is made, or later (Prove), it is proved of each cell, if it is so, that all others meet it
-/// in common faces or not at all (doc/theorem.md). Points are sorted along a space-filling curve and walk, on SIMD
-/// lanes, to a cell that certainly contains them; integers decide what the filter leaves open, connectivity gives the
-/// cells around a face, edge or vertex. Where a walk ends at the boundary, or in a cell of which nothing is proved,
-/// every cell whose box has the point is tested. Points where no cell is near are outside at once.
+/// Method. While the index is made, or later (Prove), it proves, for each cell for which this is true, that all other
+/// cells meet it in common faces or not at all (doc/theorem.md). Points are sorted along a space-filling curve and
+/// walk, on SIMD lanes, to a cell that certainly contains them. Integers decide what the filter leaves open;
+/// connectivity gives the cells around a face, edge or vertex. If a walk ends at the boundary, or in a cell without
+/// that proof, every cell whose box contains the point is tested. Points where no cell is near are outside at once.
 #pragma once
 
 #include <functional>
@@ -64,12 +65,12 @@ struct Nearest {
     double distance = 0;    ///< the exact distance rounded to nearest; infinite if it exceeds the doubles
     /// The vertex, edge or face of the cell in whose relative interior its nearest point lies: nodes of the mesh,
     /// ascending; unused entries are -1. The nearest point is the orthogonal projection onto what they span, where its
-    /// weights are positive; but of a cell taken by a map they are corners of the edge or face, three of one with four,
+    /// weights are positive. In a cell taken by a map they are corners of the edge or face, three of a face with four,
     /// and the nearest point is that of the curved side. All entries are -1 if the query point is inside the cell.
     std::array<Mesh::Index, 3> nodes{-1, -1, -1};
 };
 
-/// When it is proved where points can be found by walks, which takes longer than to order the cells.
+/// When to prove where walks find points. The proof takes longer than ordering the cells.
 enum class Prove : std::uint8_t {
     at_once,
     /// Meshes of up to 100,000 cells: once 50,000 points have been located by candidates, or when certified(),
@@ -78,7 +79,7 @@ enum class Prove : std::uint8_t {
     never,  ///< find no neighbours, and test candidates everywhere
 };
 
-/// What function cells that are no simplices (Mesh::shapes) have, and with it, where their sides are.
+/// Interpolating function of cells that are no simplices (Mesh::shapes). It decides, too, where their sides are.
 enum class CellInterpolation : std::uint8_t {
     linear,  ///< linear on each part: continuous, with flat triangles for sides
     /// Voxels, pixels, hexahedra, wedges, pyramids and quadrilaterals: that of the isoparametric map, products of
@@ -95,9 +96,9 @@ constexpr std::string_view name(CellInterpolation i) {
 struct BuildOptions {
     Prove prove = Prove::at_once;
     CellInterpolation interpolation = CellInterpolation::linear;
-    /// Of second-order cells whose mid-edge nodes are off the middle (CurvedCells), and simplices of order 3 and 4.
-    /// `straight`: they are taken with straight sides; those of order 3 and 4, and of order 2 beside cells of other
-    /// shapes, are linear then. `refuse` is as isoparametric: see measure_curved().
+    /// How to take second-order cells whose mid-edge nodes are off the middle (CurvedCells), and simplices of order 3
+    /// and 4. `straight`: with straight sides; then cells of order 3 and 4, and of order 2 beside cells of other
+    /// shapes, are linear. `refuse` is as isoparametric: see measure_curved().
     Curved curved = Curved::isoparametric;
     int threads = 0;  ///< 0: as many as the machine has; the index is the same for any number
     std::function<void(const char* stage)> progress = {};  ///< called as each stage begins
@@ -106,20 +107,21 @@ struct BuildOptions {
 /// Thread-safe: any number of threads may locate at the same time.
 class Locator {
 public:
-    /// Proves while it indexes where points can be found by walks. The mesh must stay as it is and outlive the locator.
-    /// Time O(n log n); see CheckOptions for what thin cells may cost. Error: an inconsistent mesh.
+    /// Builds the index and, unless `options.prove` says later or never, proves where walks find points. The mesh must
+    /// stay as it is and outlive the locator. Time O(n log n); see CheckOptions for what thin cells may cost. Error: an
+    /// inconsistent mesh.
     static Result<Locator> build(const Mesh& mesh, const BuildOptions& options = {});
     static Result<Locator> build(Mesh&&, const BuildOptions& = {}) = delete;
 
     const Mesh& mesh() const;
-    /// Candidates after Prove::never, else walk, also before the proof.
+    /// Method::candidates after Prove::never; otherwise Method::walk, also before the proof.
     Method method() const;
 
     /// True if it is proved that the cells partition their domain: P1 to P4 of check.hpp hold.
     bool certified() const;
 
-    /// Cells that may meet others beside common faces (0 if certified): in these every candidate is tested, elsewhere
-    /// walks are enough. Never less than there are; where cells overlap or touch, some more.
+    /// Number of cells that may meet others beside common faces; 0 if certified. In these every candidate is tested;
+    /// elsewhere walks are enough. The number is never too small; where cells overlap or touch, it counts some more.
     std::uint64_t contested_cells() const;
 
     /// Cells of volume exactly zero; 0 if the index was built with Prove::never.
@@ -127,7 +129,8 @@ public:
 
     CellInterpolation interpolation() const;
     bool has_curved_cells() const;  ///< some are taken as the isoparametric images that they are
-    /// Cells of a type that has a map, which are taken as their parts: it is not proved that the map is injective.
+    /// Number of cells of a type that has a map which are taken as their parts, because the map is not proved to be
+    /// injective.
     std::uint64_t unmapped_cells() const;
 
     /// Bytes of memory besides the mesh, without buffers of points (up to 20 MiB a thread). Grows as parts of the index
@@ -139,8 +142,8 @@ public:
     Result<Location> locate(const double* point, Mesh::Index hint = -1) const;
 
     /// Locates many points: sets cells[i] and features[i] for point i. `threads`: 0 for as many as the machine has.
-    /// Error, and the output unspecified: sizes that do not fit; a coordinate that is not finite, unless such points
-    /// are to be outside.
+    /// Error: sizes that do not fit; a coordinate that is not finite, unless `nonfinite` makes such points outside.
+    /// After an Error the output is unspecified.
     Status locate(std::span<const double> points, std::span<Mesh::Index> cells, std::span<Feature> features,
                   LocationCounts* counts = nullptr, int threads = 0,
                   NonfinitePoints nonfinite = NonfinitePoints::error) const;
@@ -149,15 +152,16 @@ public:
     Result<Table> locate(std::span<const double> points, int threads = 0,
                          NonfinitePoints nonfinite = NonfinitePoints::error) const;
 
-    /// Every cell that holds each point: a row for each, ascending, or one row with cell -1 for a point outside. Sets
-    /// points, cells, features, point_begin, and counts.locations: one a point, by its owner. Errors as above.
+    /// Finds every cell that contains each point: one row for each cell, ascending, or one row with cell -1 for a point
+    /// outside. Sets points, cells, features, point_begin, and counts.locations (one count a point, by its owner).
+    /// Errors as above.
     Result<Table> locate_all(std::span<const double> points, int threads = 0,
                              NonfinitePoints nonfinite = NonfinitePoints::error) const;
 
-    /// The nearest point of all cells that are not degenerate, if its rounded distance is at most `limit`; none if that
-    /// is negative or NaN. Takes some microseconds to some hundred, beside curved sides a millisecond; more where many
-    /// cells are equally near up to 1e-13 of the size of the mesh: these are compared in integers. Error: a coordinate
-    /// that is not finite.
+    /// Returns the nearest point of all cells that are not degenerate, if its rounded distance is at most `limit`;
+    /// otherwise cell -1, also if the limit is negative or NaN. Takes some microseconds to some hundred, beside curved
+    /// sides a millisecond; more if many cells are equally near up to 1e-13 of the size of the mesh, because integers
+    /// compare these. Error: a coordinate that is not finite.
     Result<Nearest> nearest(const double* point, double limit) const;
 
 private:
@@ -166,7 +170,8 @@ private:
     std::unique_ptr<locate::LocatorData, void (*)(locate::LocatorData*)> data_;
 };
 
-/// Where cells are straight or linear though their maps are asked for. `file`: what the user calls the mesh.
+/// Notes which cells are taken as straight or linear although their maps are asked for. `file`: what the user calls the
+/// mesh.
 Notes notes_of_maps(const Locator& locator, CellInterpolation asked, const std::string& file);
 
 }  // namespace barycert

@@ -20,18 +20,18 @@ struct CellMeasures {
     std::vector<double> volume;            ///< signed (2D: area), correctly rounded, in the unit of coordinates cubed
     std::vector<double> condition;         ///< of the weights, see weights.hpp; infinity if degenerate
 
-    /// Sign of the Jacobian of each cell's isoparametric map (MapReport): -1, 1; 0 not known, 2 changes. Of a cell that
-    /// has none its orientation. Empty if no cell has one.
+    /// Sign of the Jacobian of each cell's isoparametric map (MapReport): -1, 1; 0 not known, 2 changes. For a cell
+    /// without a map it is the orientation. Empty if no cell has a map.
     std::vector<std::int8_t> jacobian;
 
-    // Shape, in plain double from correctly rounded volumes. Of a degenerate cell: infinite ratios.
+    // Shape, in plain double from correctly rounded volumes. Ratios of a degenerate cell are infinite.
     std::vector<double> radius_edge;  ///< circumradius / shortest edge; regular: 0.612 (2D: 0.577)
     std::vector<double> aspect;       ///< longest edge / inradius, scaled so that the regular simplex has 1
     std::vector<double> min_angle;    ///< smallest dihedral angle (2D: angle), degrees
     std::vector<double> max_angle;    ///< largest dihedral angle (2D: angle), degrees
 };
 
-/// Those that are numbers, under the names that files and reports have.
+/// Measures that are numbers, under the names that files and reports have.
 inline constexpr std::array<std::pair<std::string_view, std::vector<double> CellMeasures::*>, 6> cell_measures{
     {{"volume", &CellMeasures::volume},
      {"condition", &CellMeasures::condition},

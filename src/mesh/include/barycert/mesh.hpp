@@ -30,7 +30,7 @@ struct Column {
 struct ColumnFormat {
     std::string name;
     Column::Type type = Column::Type::integer;
-    /// Of text: the longest that may come, in bytes; and in characters, if all are UTF-8, else 0. NPY files need them.
+    /// The longest text that may come, in bytes; and in characters if all are UTF-8, else 0. NPY files need them.
     std::size_t max_bytes = 0, max_characters = 0;
 
     friend bool operator==(const ColumnFormat&, const ColumnFormat&) = default;
@@ -63,9 +63,9 @@ enum class MidEdgeOrder : std::uint8_t {
 struct Mesh {
     using Index = std::int32_t;
 
-    /// Cells that are no simplices, as their file has them. Each is cut into simplices at its node of lowest number,
-    /// and each of its faces likewise, so that neighbours agree (pulling); these simplices are the mesh's `cells`, and
-    /// the index of the first is in `parts`.
+    /// Cells that are no simplices, as their file has them. Pulling cuts each cell and each of its faces at its node of
+    /// lowest number, so that neighbours agree. The simplices are the mesh's `cells`; `parts` has the index of the
+    /// first of each.
     struct Shapes {
         std::vector<std::uint8_t> types;      ///< VTK's numbers, 5 to 16 and 42; empty in a mesh of simplices
         std::vector<std::int64_t> ends;       ///< where the nodes of each end
@@ -88,8 +88,8 @@ struct Mesh {
     std::vector<double> points;  ///< dimension coordinates a node
     std::vector<Index> cells;    ///< dimension + 1 vertices a cell
     Shapes shapes;               ///< what `cells` were cut from; empty if the file has simplices
-    /// Of a grid along axes whose nodes and cells are not listed (ReadOptions::list_grids), coordinates along each,
-    /// increasing; the first runs fastest. Then points, cells and shapes are empty. Else empty.
+    /// Increasing coordinates along each axis of a grid whose nodes and cells are not listed (ReadOptions::list_grids);
+    /// the first axis runs fastest. Then points, cells and shapes are empty. Else these are empty.
     std::array<std::vector<double>, 3> axes;
 
     /// Nodes at mid-edges in the order `vtk` whatever the file's, 6 a tetrahedron or 3 a triangle; empty if linear.
@@ -116,12 +116,12 @@ struct Mesh {
 
     int index_base = 0;  ///< 0 or 1: the base of the file it came from, used again by the writer
 
-    /// What users know the cell as.
+    /// The number by which users know the cell.
     Index cell_number(Index cell) const {
         return cell_numbers.empty() || cell < 0 ? cell : cell_numbers[static_cast<std::size_t>(cell)];
     }
     std::size_t corners() const { return static_cast<std::size_t>(dimension) + 1; }
-    /// Where a node is, and the nodes of a cell. Precondition: is_listed().
+    /// Returns the coordinates of a node, and the nodes of a cell. Requires is_listed().
     const double* point(Index node) const {
         return points.data() + static_cast<std::size_t>(dimension) * static_cast<std::size_t>(node);
     }
@@ -143,17 +143,19 @@ private:
     }
 };
 
-/// Simplices of order 2 to 4 whose sides are not straight. Locators and samplers take them as they are (locator.hpp);
-/// what else is said of meshes is exact for straight sides, and for the file's own shapes only up to about
-/// `max_deviation`.
+/// Simplices of order 2 to 4 whose sides are not straight. Locators and samplers take them as they are (locator.hpp).
+/// Everything else takes straight sides: its results are exact for these, and hold for the file's own shapes only up to
+/// about `max_deviation`.
 ///
-/// The deviation of a node is its distance from where the straight cell has it, at the middle of an edge of order 2,
-/// over the length of the edge (of order 3 and 4 amid corners: of the longest). Such a node is
-///   straight  exactly there; or there up to rounding: on each axis one of the two numbers nearest to it among doubles,
-///             floats if all coordinates are floats, or decimal numbers of the mesh's digits (mesh/straight_nodes.hpp),
-///             the last two at most 1/1000 of the edge off. Of cells of order 2 in a mesh of one type such nodes are
-///             taken as being there, of others (Mesh::shapes) as the file has them;
-///   a curve   else.
+/// The deviation of a node is its distance from its place in the straight cell, divided by a length. In a cell of order
+/// 2 the place is the middle of an edge, and the length that of the edge; in order 3 and 4 the place lies amid corners,
+/// and the length is that of the longest edge between these. The node is
+///   straight  if it is exactly there, or there up to rounding: on each axis it is one of the two numbers nearest to
+///             the place among doubles, floats if all coordinates are floats, or decimal numbers of the mesh's digits
+///             (mesh/straight_nodes.hpp); the last two at most 1/1000 of the edge off. A node off by rounding is taken
+///             as being there in a mesh whose cells are all of one type of order 2; in others (Mesh::shapes) it is
+///             taken as the file has it;
+///   a curve   otherwise.
 struct CurvedCells {
     std::uint64_t cells = 0;          ///< with a node off by a curve
     double max_deviation = 0;         ///< of such nodes
@@ -164,18 +166,20 @@ struct CurvedCells {
     bool rounded_too = false;         ///< then nodes off by rounding as well: the mesh has shapes
 };
 
-/// Leaves out cells with an index that is no node, and coordinates that are not finite. `each`, if given: of each cell
-/// a bit for each of its mid-edge nodes that is off the middle by a curve, 1 of cells among shapes; empty if none is.
-/// `exact`: rounding is a curve, too.
+/// Measures the curved cells. Ignores cells with an index that is no node, and coordinates that are not finite. `each`,
+/// if given, gets for each cell a bit for each of its mid-edge nodes that is off the middle by a curve (for cells among
+/// shapes 1 if any is); it is empty if no node is. `exact`: a node off by rounding is a curve, too.
 CurvedCells curved_cells(const Mesh& mesh, std::vector<std::uint8_t>* each = nullptr, bool exact = false);
 
-/// In a sentence or more, "; " between; empty if all sides are straight, and no cell is taken by its corners.
+/// Describes them in a sentence or more, joined by "; "; empty if all sides are straight and no cell is taken by its
+/// corners.
 std::string message(const CurvedCells& curved);
 
-/// What becomes of curved cells. `exact`: as isoparametric, with each node as it is, off by rounding or not.
+/// Ways to take curved cells. `exact`: as isoparametric, with each node as it is, off by rounding or not.
 enum class Curved : std::uint8_t { isoparametric, straight, refuse, exact };
 
-/// Error, with Curved::refuse: there are curved cells. `file` is what the user calls the mesh.
+/// Measures the curved cells as `curved` takes them. Error: there are curved cells, and `curved` is Curved::refuse.
+/// `file` is what the user calls the mesh.
 Result<CurvedCells> measure_curved(const Mesh& mesh, const std::string& file, Curved curved);
 
 }  // namespace barycert

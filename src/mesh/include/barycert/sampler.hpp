@@ -3,7 +3,7 @@
 /// Input: a mesh with fields of its nodes or cells, and points in the unit of the mesh. Output: a Table, with the
 /// owner, the feature and a value for each component of each field at each point.
 ///
-/// What holds (each law is a test of that name in tests/mesh/sample):
+/// Laws (each is a test of that name in tests/sample):
 ///   V1  A value of a point field is the exact interpolation in the owner, linear, or quadratic on cells of second
 ///       order, rounded once to nearest, ties to even. A value of a cell field is that of the owner.
 ///   V2  Where cells meet in a proper mesh, point fields have the same bits from every cell that holds the point. A
@@ -13,27 +13,29 @@
 ///   N3  Under the policy `nearest`, the value of a point field is that of the nearest cell, at the point of that cell
 ///       that is nearest to the query point; NaN as in V2. Each component lies between the cell's nodal values. On
 ///       cells of second order the weights of the nearest point are rounded first, and the value may exceed the nodal
-///       values as far as the quadratic does in the cell. Of cells with maps (Locator) it is the value of their own
+///       values as far as the quadratic does in the cell. In cells with maps (Locator) the value is that of their own
 ///       function at the nearest point of their curved sides, rounded once.
 ///   E1  Nothing is silent: a point outside gets NaN unless the policy says otherwise, and SampleCounts has the numbers
 ///       of points inside, on boundaries and outside.
 /// With Rounding::plain, owners and features are exact as well; values are computed in plain double.
 ///
-/// What can be made of fields, by name where fields are named; a field that has such a name itself goes before. NAME
-/// may be any of these again:
+/// Quantities are made of fields by expressions, wherever a field is named; a field that has the expression as its name
+/// goes before. NAME may be an expression again:
 ///   NAME.x, NAME.2  a component by its axis or number.
-///   grad(NAME)      of a field of nodes: the gradient of the function that is interpolated, in the owner. Where cells
-///                   meet it jumps, and is that of the lowest cell. Columns grad(NAME).0, .1, ...: the derivatives of
+///   grad(NAME)      the gradient, in the owner, of the interpolated function of a field of nodes. It jumps where cells
+///                   meet, and is that of the lowest cell there. Columns grad(NAME).0, .1, ...: the derivatives of
 ///                   component 0 by x, y, z, then of component 1. Each is the exact one rounded once, to nearest, ties
-///                   to even. Outside it is that in the nearest cell under both policies, on cells of second order
-///                   there at the nearest point with its coordinates rounded (nearest), or at the point (extrapolate).
-///   |NAME|          the Euclidean length. Of a field of nodes: of the components at the point, rounded as they are
-///                   sampled. It differs from the exact length by less than 2 units in the last place (1.51 where that
-///                   is not subnormal) with up to nine components; of a field of cells by less than 0.76 (0.51).
-///   mean(NAME)      of a field of cells: a field of nodes, whose value at a node is the mean over all cells that have
-///                   it, weighted by their volumes (areas; with straight sides), exact and rounded once. Then it is
-///                   interpolated. NaN where a value of a cell that is not degenerate is not finite.
-/// Gradients and means are rounded correctly with Rounding::plain too, but for gradients on cells of second order.
+///                   to even. At a point outside, under both policies, it is that of the nearest cell; on cells of
+///                   second order evaluated at the nearest point with rounded coordinates (nearest), or at the point
+///                   itself (extrapolate).
+///   |NAME|          the Euclidean length. For a field of nodes it is the length of the components at the point, after
+///                   each was rounded. With up to nine components it differs from the exact length by less than 2 units
+///                   in the last place (1.51 where the length is not subnormal); for a field of cells by less than 0.76
+///                   (0.51).
+///   mean(NAME)      a field of nodes made from a field of cells, and interpolated: the value at a node is the mean
+///                   over all cells that have it, weighted by their volumes (areas; with straight sides), exact and
+///                   rounded once. It is NaN where a value of a cell that is not degenerate is not finite.
+/// With Rounding::plain, gradients and means are correctly rounded as well, except gradients on cells of second order.
 #pragma once
 
 #include <limits>
@@ -47,15 +49,15 @@ namespace sample {
 struct SamplerData;
 }
 
-/// What a point outside every cell gets.
+/// Values that a point outside every cell gets.
 enum class Outside : std::uint8_t {
     nan,
     error,    ///< the call returns an Error that names the first such point
     fill,     ///< OutsidePolicy::fill
     nearest,  ///< point fields at the nearest point of the mesh, cell fields of its cell
-    /// The function of the nearest cell, evaluated where the point is. Of a cell with a map (Locator) its inverse is
-    /// continued along the straight way from the nearest point. Where it is not proved that it can be, the point has
-    /// the value of `nearest`, and is counted (SampleCounts::unmapped).
+    /// The function of the nearest cell, evaluated at the point. If the cell has a map (Locator), the inverse of the
+    /// map is continued along the straight way from the nearest point to the point. Where no proof is found that it can
+    /// be continued, the point gets the value of `nearest`, and is counted (SampleCounts::unmapped).
     extrapolate,
 };
 
@@ -72,7 +74,7 @@ struct SampleOptions {
     NonfinitePoints nonfinite_points = NonfinitePoints::error;
 };
 
-/// What is made of a field.
+/// A quantity made of a field.
 struct QuantityStep {
     enum class Kind : std::uint8_t {
         component,  ///< one of its components
@@ -86,7 +88,7 @@ struct QuantityStep {
     friend bool operator==(const QuantityStep&, const QuantityStep&) = default;
 };
 
-/// One field to be sampled, or what is made of it.
+/// A field to be sampled, or a quantity made of it.
 struct FieldChoice {
     const Field* field = nullptr;
     bool of_cells = false;
@@ -94,43 +96,44 @@ struct FieldChoice {
     std::string name = {};                 ///< of the columns; empty: that of the field
 };
 
-/// The fields of these names, or what is made of them, as Sampler::build chooses them. Reads of the mesh its fields,
-/// which must stay, its dimension and whether it has nodes at mid-edges. Error: no such field, or one chosen twice.
+/// Returns the fields or quantities with these names, as Sampler::build chooses them. Reads only the mesh's fields,
+/// which must stay, its dimension, and whether it has nodes at mid-edges. Error: no such field; a field chosen twice.
 Result<std::vector<FieldChoice>> choose_fields(const Mesh& mesh, const std::vector<std::string>& names);
 
 /// Thread-safe: any number of threads may sample at the same time.
 class Sampler {
 public:
-    /// A sampler of the fields of these names, or of what is made of them (empty: all fields as they are), with a
-    /// locator of its own. The mesh must stay as it is and outlive the sampler. Error: an inconsistent mesh, no such
-    /// field, or one that does not fit.
+    /// Builds a sampler of the fields or quantities with these names (empty: all fields as they are), with a locator of
+    /// its own. The mesh must stay as it is and outlive the sampler. Error: an inconsistent mesh; no such field; a
+    /// field that does not fit.
     static Result<Sampler> build(const Mesh& mesh, const std::vector<std::string>& fields = {},
                                  const BuildOptions& options = {});
     static Result<Sampler> build(Mesh&&, const std::vector<std::string>& = {}, const BuildOptions& = {}) = delete;
 
-    /// The same on a locator that there is. Locator and fields must stay and outlive the sampler, which copies what it
-    /// needs of point fields in the order in which it will be read. Returns an Error if a field does not fit the mesh.
+    /// The same on an existing locator. Locator and fields must stay and outlive the sampler, which copies what it
+    /// needs of point fields, in the order in which it will read them. Error: a field that does not fit the mesh.
     static Result<Sampler> build(const Locator& locator, const std::vector<FieldChoice>& fields);
 
     const Locator& locator() const;
 
-    /// Of a row: those of the point fields first, then those of the cell fields, then lengths of point fields and
-    /// gradients on cells of second order.
+    /// The fields of a row: point fields first, then cell fields, then lengths of point fields and gradients on cells
+    /// of second order.
     const std::vector<TableField>& fields() const;
     const std::vector<std::string>& columns() const;  ///< column_names(fields())
 
-    /// Row i is for point i: cells, features, values, distances, columns and counts. Returns an Error if a coordinate
-    /// is not finite (but see SampleOptions), or if the policy is `error` and a point is outside.
+    /// Samples points: row i is for point i and has cells, features, values, distances, columns and counts. Error: a
+    /// coordinate that is not finite (but see SampleOptions); a point outside under the policy `error`.
     Result<Table> sample(std::span<const double> points, const SampleOptions& options = {}) const;
 
-    /// The same into a table that keeps its memory from call to call; its points are left alone, and may be `points`.
-    /// `first_point`: what messages count points from. After an Error the rows are not to be used.
+    /// The same into a table that keeps its memory from call to call. Leaves the table's points alone; they may be
+    /// `points`. `first_point`: the number from which messages count points. After an Error the rows are not to be
+    /// used.
     Status sample(std::span<const double> points, const SampleOptions& options, Table& rows,
                   std::size_t first_point = 0) const;
 
     /// The same for rows whose owners are known: point i lies in rows.cells[i], or outside if that is -1, with the
-    /// feature rows.features[i], as of Locator::locate or locate_all. In a degenerate cell point fields are NaN, and
-    /// counted. Error besides: a cell out of range, or that of a point that is not finite.
+    /// feature rows.features[i], as Locator::locate or locate_all give them. In a degenerate cell point fields are NaN,
+    /// and counted. Error besides: a cell out of range; a cell for a point that is not finite.
     Status evaluate(std::span<const double> points, const SampleOptions& options, Table& rows,
                     std::size_t first_point = 0) const;
 
@@ -151,15 +154,16 @@ struct NodeWeights {
     std::size_t row_count() const { return begin.empty() ? 0 : begin.size() - 1; }
 };
 
-/// The weights of located points: of rows.points[i] in cell rows.cells[i] of the locator's mesh, or outside if that is
-/// -1, as locate() and locate_all() find them. On cells of second order they are the quadratic's at corners and
-/// mid-edge nodes. Each is the exact one rounded once, to nearest, ties to even; what rounds to zero is left out. So
-/// they need not sum to 1, and their sum with nodal values, rounded in each step, is not the correctly rounded value.
+/// Returns the weights of located points: rows.points[i] lies in cell rows.cells[i] of the locator's mesh, or outside
+/// if that is -1, as locate() and locate_all() find them. On cells of second order they are the quadratic's, at corners
+/// and mid-edge nodes. Each weight is the exact one rounded once, to nearest, ties to even; weights that round to zero
+/// are left out. So they need not sum to 1, and their sum with nodal values, rounded in each step, is not the correctly
+/// rounded value.
 ///
-/// Points outside have no weights, unless the policy is `nearest` (within its limit: those of the nearest point of the
-/// mesh, which on cells of second order has its barycentric weights rounded first) or `extrapolate` (those of the
-/// function of the nearest cell) and the point is finite. Works on the calling thread. Error: sizes that do not fit; a
-/// cell out of range or degenerate; a point in a cell that is not finite.
+/// Points outside have no weights, unless they are finite and the policy is `nearest` or `extrapolate`. With `nearest`,
+/// within its limit, they have those of the nearest point of the mesh (on cells of second order its barycentric weights
+/// are rounded first); with `extrapolate`, those of the function of the nearest cell. Works on the calling thread.
+/// Error: sizes that do not fit; a cell out of range or degenerate; a point in a cell that is not finite.
 Result<NodeWeights> node_weights(const Locator& locator, const TableView& rows, const OutsidePolicy& outside = {});
 
 }  // namespace barycert

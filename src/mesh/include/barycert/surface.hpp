@@ -3,10 +3,10 @@
 /// Input: a mesh of tetrahedra (or of triangles in the plane: then segments take the place of triangles) with fields of
 /// its nodes. Output: triangles with fields carried along, in the unit of the mesh.
 ///
-/// What a cut is. Take the linear interpolation of a function g of the nodes: a field less a value, or d - n.x for a
-/// plane n.x = d. A node is in the set if g >= 0 there, exactly. The cut is the boundary of that set within the mesh:
-/// one triangle or two in every cell that has nodes inside the set and outside. Its points lie on edges of the mesh
-/// between a node inside and one outside, where g is zero; where the node inside has g = 0, at that node.
+/// Definition of a cut. Take the linear interpolation of a function g of the nodes: a field less a value, or d - n.x
+/// for a plane n.x = d. A node is in the set if g >= 0 there, exactly. The cut is the boundary of that set within the
+/// mesh: one triangle or two in every cell that has nodes inside the set and outside. Its points lie on edges of the
+/// mesh between a node inside and one outside, where g is zero; where the node inside has g = 0, at that node.
 ///
 /// Laws (each is a test of that name in tests/mesh/surface):
 ///   K1  Each coordinate and each value of a carried field of nodes is that of the exact crossing, from the exact
@@ -47,7 +47,8 @@ struct Surface {
 
     std::vector<Field> point_fields, cell_fields;  ///< what was carried along, or came with the file
 
-    /// Of each cell: the polygon of the file, or facet of the PLC, that it is part of; ascending. Empty: it is one.
+    /// For each cell, the polygon of the file or the facet of the PLC that it is part of; ascending. Empty: each cell
+    /// is one.
     std::vector<Mesh::Index> facets;
     std::size_t facet_count = 0;  ///< of the file, those that have no cells among them; 0: not known
     int index_base = 0;           ///< 0 or 1: the base of the file it came from
@@ -68,20 +69,20 @@ struct Surface {
         for (std::size_t i = 1; i < facets.size(); ++i) count += facets[i] != facets[i - 1] ? 1 : 0;
         return count;
     }
-    /// What users know the cell as.
+    /// The number of the polygon or facet by which users know the cell.
     Mesh::Index facet(Mesh::Index cell) const {
         return facets.empty() || cell < 0 ? cell : facets[static_cast<std::size_t>(cell)];
     }
 };
 
-/// What is carried along. Fields must fit the mesh.
+/// Fields that a cut carries along. They must fit the mesh.
 struct CutOptions {
     std::vector<const Field*> point_fields = {};  ///< of nodes: interpolated
     std::vector<const Field*> cell_fields = {};   ///< of cells: copied
     int threads = 0;                              ///< 0: as many as the machine has
 };
 
-/// What became of the cells of the mesh, and how the points were found.
+/// Counts of what became of the cells of the mesh, and how the points were found.
 struct CutCounts {
     std::uint64_t cells = 0;         ///< that have a part of the surface
     std::uint64_t not_finite = 0;    ///< left out: with a node at which the field is NaN or infinite
@@ -130,7 +131,7 @@ Result<Surface> boundary(const Mesh& mesh, const CutOptions& options = {});
 // Files: .vtp (VTK's XML, for ParaView), .ply (binary), .off (text), by the suffix. Every number reads back to the same
 // bits.
 
-/// What a format could not take.
+/// Changes that a file's format required.
 struct SurfaceFile {
     std::vector<std::string> left_out;  ///< names of fields, in the order of the surface
     std::vector<std::string> renamed;   ///< names in the file that differ, as "NAME as OTHER"

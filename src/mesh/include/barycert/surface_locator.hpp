@@ -4,25 +4,25 @@
 /// area is the segment or point that it is. Output: on which triangle a point lies, or on which side; the nearest
 /// triangle and point of it; where a segment or ray meets the surface.
 ///
-/// What holds, for every finite point (each law is a test of that name in tests/mesh/locate):
+/// Laws, for every finite point (each is a test of that name in tests/locate):
 ///   W1  A point that lies on a triangle is always found there, on its face, edge or vertex; of several triangles it is
 ///       the lowest.
-///   W2  The winding number of every other point is exact: how many times the surface goes around it, the sum of what
-///       its shells count (triangles connected over edges, without those that an edge of one triangle leaves open):
+///   W2  The winding number of every other point is exact: how many times the surface goes around the point. It is the
+///       sum over shells (triangles connected over edges, without those that an edge of one triangle leaves open). Each
+///       shell counts by the first of these rules that applies:
 ///       Turned::alike    each edge has as many triangles one way as the other: how many times the shell goes around
-///                        it, positive where normals (right hand) point away from it;
-///       Turned::regions  another shell that meets itself in common nodes and edges alone: 1 in the regions that it
-///                        encloses, or -1 if normals of most of its triangles point into them. Triangles of the same
-///                        nodes are one;
-///       Turned::even     of all others, whose edges have an even number of triangles: the parity, 0 or 1;
-///       Turned::open     any other shell, and nobody knows what it would enclose: no point has a winding number.
+///                        the point, positive where normals (right hand) point away from it;
+///       Turned::regions  the shell meets itself in common nodes and edges alone: 1 in the regions that it encloses, or
+///                        -1 if normals of most of its triangles point into them. Triangles of the same nodes are one;
+///       Turned::even     each edge has an even number of triangles: the parity, 0 or 1, of all such shells together;
+///       Turned::open     any other shell is open: then no point has a winding number.
 ///       A point is inside if the sum is not 0.
 ///   N1  `nearest` is exact: no point of the surface is nearer than the one returned, and its triangle is the lowest
 ///       of all that have a point as near. Distance and coordinates are correctly rounded, and so are the weights of
 ///       the vertex, edge or face that the point lies on. A value of the surface there is the mean by these weights,
 ///       before they are rounded.
-///   V1  `values` at nearest points are these means, computed exactly and rounded once to nearest, ties to even; too
-///       large ones to infinity. A value that is not finite counts where its node has a weight.
+///   V1  `values` at nearest points are these means, computed exactly and rounded once to nearest, ties to even; those
+///       beyond the doubles round to infinity. A value that is not finite counts only if its node has a weight.
 ///   H1  `hits` are all triangles that a segment meets, in their exact order along it, ties by triangle.
 ///   D1  Results depend on the points and the surface alone, not on threads, SIMD target or the order of points.
 #pragma once
@@ -36,7 +36,7 @@ namespace locate {
 struct SurfaceData;
 }
 
-/// What there is to tell the two sides of a surface apart (W2): of all its shells the least that one has.
+/// Evidence that tells the two sides of a surface apart (W2): the weakest that one of its shells has.
 enum class Turned : std::uint8_t {
     open,     ///< there is no inside
     even,     ///< parity
@@ -71,7 +71,7 @@ struct SurfaceNearest : Nearest {
 /// A triangle that a segment meets.
 struct SurfaceHit {
     Mesh::Index triangle = -1;
-    /// Of the triangle; `degenerate`: the segment lies in its plane, or along one of zero area.
+    /// The part of the triangle that is hit; `degenerate`: the segment lies in its plane, or along one of zero area.
     Feature feature = Feature::outside;
     double parameter = 0;  ///< 0 at the first end, 1 at the second; correctly rounded; of several the first
     int side = 0;  ///< 1 if it leaves on the side of the normal, -1 on the other, 0 in the plane or without a normal
@@ -91,28 +91,30 @@ public:
     Turned turned() const { return sides().turned; }
     std::size_t bytes() const;  ///< of memory besides the surface
 
-    /// W1, W2. Of an open surface only W1 holds: points on no triangle are outside. Error: a coordinate is not finite.
+    /// Locates points by W1 and W2. For an open surface only W1 holds: points on no triangle are outside. Error: a
+    /// coordinate is not finite.
     Result<SurfaceLocation> locate(const double* point) const;
     Status locate(std::span<const double> points, std::span<SurfaceLocation> found, int threads = 0) const;
 
-    /// N1, if the rounded distance is at most `limit`; else cell -1. A negative limit, or NaN, finds nothing. Error: a
-    /// coordinate is not finite.
+    /// Returns the nearest point by N1, if the rounded distance is at most `limit`; otherwise cell -1, also if the
+    /// limit is negative or NaN. Error: a coordinate is not finite.
     Result<SurfaceNearest> nearest(const double* point, double limit) const;
     Status nearest(std::span<const double> points, double limit, std::span<SurfaceNearest> found,
                    int threads = 0) const;
 
-    /// N1, of that triangle alone for each point; of -1 nothing: what a map (map.hpp) knows without a search. Error:
-    /// also a number that is none of a triangle.
+    /// N1 for a given triangle a point; finds nothing for -1. A map (map.hpp) knows these triangles without a search.
+    /// Error: also a number that is none of a triangle.
     Status nearest_on(std::span<const Mesh::Index> triangles, std::span<const double> points,
                       std::span<SurfaceNearest> found, int threads = 0) const;
 
-    /// V1: a field of nodes, or of triangles, at the nearest points of these points, one value a point; NaN where there
-    /// is none. Error: sizes that do not fit.
+    /// Sets `out` by V1: the values of a field of nodes, or of triangles, at the nearest points of these points, one
+    /// value a point; NaN where there is none. Error: sizes that do not fit.
     Status values(const Field& field, bool of_cells, std::span<const double> points,
                   std::span<const SurfaceNearest> nearest, std::span<double> out, int threads = 0) const;
 
-    /// H1, of the closed segment from a to b, or the ray from a through b. A triangle in whose plane the segment lies
-    /// is given once, at the first of its points that they have in common. Error: a coordinate is not finite; a is b.
+    /// Returns, by H1, the hits of the closed segment from a to b, or of the ray from a through b. A triangle whose
+    /// plane contains the segment is listed once, at the first of their common points. Error: a coordinate is not
+    /// finite; a is b.
     Result<std::vector<SurfaceHit>> hits(const double* a, const double* b, bool ray = false) const;
 
 private:

@@ -32,8 +32,7 @@ constexpr std::optional<VtkData> vtk_data_named(std::string_view name) {
     return std::nullopt;
 }
 
-/// How a locator found the owners of points; points whose owners were known, or that are those of a grid, are not
-/// counted.
+/// How a locator found the owners of points. Points whose owners were known, and points of a grid, are not counted.
 struct WayCounts {
     std::uint64_t no_cell_near = 0;  ///< outside at once: no cell is near
     std::uint64_t walk = 0;          ///< a walk ended in the owner, or at a cell that has the point on its boundary
@@ -44,7 +43,7 @@ struct WayCounts {
     void add(const WayCounts& other);
 };
 
-/// What points with a coordinate that is NaN or infinite are.
+/// Rule for points with a coordinate that is NaN or infinite.
 enum class NonfinitePoints : std::uint8_t {
     error,
     nan,  ///< points outside, with NaN for values whatever points outside get, and counted
@@ -70,19 +69,19 @@ struct SampleCounts {
     std::uint64_t snapped = 0;  ///< points outside that got the value of the nearest point
     std::uint64_t extrapolated = 0;
     std::uint64_t without_value = 0;  ///< points outside that got NaN, or the number to fill in
-    /// Points in cells with a map, or outside of them, where 1,200 bits do not tell how a value or a distance rounds,
-    /// or where no proof is found which point is nearest.
+    /// Points in or beside cells with a map for which 1,200 bits do not tell how a value or a distance rounds, or for
+    /// which no proof is found of which point is nearest.
     std::uint64_t undecided = 0;
     double max_off = 0;  ///< no value or distance is farther from the one rounded correctly: as a rule an ulp
     /// Points in cells with a map whose reference coordinates were not found: they have the values of the cell's parts.
-    /// Outside, extrapolated, they have that of the nearest point.
+    /// Extrapolated points outside have the value of the nearest point instead.
     std::uint64_t unmapped = 0;
     double farthest = 0;  ///< max distance of those snapped or extrapolated
 
     void add(const SampleCounts& other);
 };
 
-/// Rows of somebody else.
+/// A view of rows that somebody else owns.
 struct TableView {
     int dimension = 3;
     std::uint64_t first_row = 0;              ///< number of rows that came before, in a stream of blocks
@@ -103,8 +102,8 @@ struct Table {
     std::vector<Feature> features;     ///< of the point in that cell
     std::vector<std::string> columns;  ///< names of the values of a row: NAME, or NAME.0, NAME.1, ...
     std::vector<double> values;        ///< columns.size() a row, row after row
-    /// From the point to the mesh: 0 inside, NaN where a point outside got no value. Empty unless the policy for
-    /// points outside is nearest or extrapolate.
+    /// Distance from the point to the mesh: 0 inside, NaN where a point outside got no value. Empty unless the policy
+    /// for points outside is nearest or extrapolate.
     std::vector<double> distances;
     std::vector<Column> carried;  ///< columns that were carried through: of points, or of their owners
     /// Where points have any number of rows (Locator::locate_all): the rows of point i are point_begin[i] to
@@ -123,7 +122,7 @@ struct TableField {
     int components = 1;
 };
 
-/// NAME for a field of one component, else NAME.0, NAME.1, ...
+/// Returns NAME for a field of one component, else NAME.0, NAME.1, ...
 std::vector<std::string> column_names(const std::vector<TableField>& fields);
 
 /// Appends the values of the rows to the data of the fields, whose components are the columns in their order.

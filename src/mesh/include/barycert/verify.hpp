@@ -1,15 +1,15 @@
-/// Results of any tool held against the exact ones: which of its points, cells and values are wrong, and by how much.
+/// Compares results of any tool with the exact ones: which of its points, cells and values are wrong, and by how much.
 ///
 /// Input: a mesh with fields, points in its unit, and for each point what a tool says of it: outside or not, the cell
 /// that contains it, a value for each component of fields. Output: counts, distributions of errors, and the worst rows.
 ///
-/// What counts as right (each law is a test of that name in tests/mesh/verify):
+/// Laws: what counts as right (each is a test of that name in tests/verify):
 ///   R1  Inside: the point lies in a closed cell of non-zero volume, exactly. A row that says so is right, and so is a
 ///       row that says "outside" of any other point.
 ///   R2  Cell: any closed cell of non-zero volume that contains the point is right, not its owner alone.
-///   R3  Value: the error is the distance to the exact interpolation in the owner, rounded once. Where more than one
-///       cell contains the point, it is the least over these cells, as they may differ where cells overlap, and for
-///       fields of cells.
+///   R3  Value: the error is the distance to the exact interpolation in the owner, rounded once. If several cells
+///       contain the point, it is the least error over these cells: their values may differ where cells overlap, and
+///       for fields of cells.
 ///   R4  Nothing is silent: every row is in exactly one of Verdicts::right, missed, invented, wrong_cell, wrong_value.
 ///   D1  Counts depend on mesh, fields and rows alone: not on threads or blocks.
 #pragma once
@@ -18,7 +18,7 @@
 
 namespace barycert {
 
-/// What a tool says of points. All parts have one entry a point, or are empty.
+/// A tool's claims about points. All parts have one entry a point, or are empty.
 struct ClaimedRows {
     std::span<const double> points = {};        ///< coordinates, point after point
     std::span<const std::int64_t> cells = {};   ///< index in the mesh, from 0; below 0: outside
@@ -38,7 +38,7 @@ struct VerifyOptions {
     NonfinitePoints nonfinite_points = NonfinitePoints::error;  ///< nan: they are outside
 };
 
-/// What errors of the values of a field's component are told in parts of.
+/// Unit of the relative errors of the values of a field's component.
 enum class RelativeTo : std::uint8_t {
     range,      ///< max - min of its finite values in the mesh
     magnitude,  ///< of these values, where they are all the same: the range is 0
@@ -49,7 +49,7 @@ constexpr std::string_view name(RelativeTo to) {
     return to == RelativeTo::range ? "range" : to == RelativeTo::magnitude ? "magnitude" : "one";
 }
 
-/// What may be wrong with a row; the first that applies.
+/// Verdict on a row: the first that applies.
 enum class RowVerdict : std::uint8_t {
     right,
     missed,       ///< in a cell, and said to be outside
@@ -107,7 +107,7 @@ inline constexpr double near_distance = 1e-9;
 /// Distances take up to some hundred microseconds a row: no more than so many rows are measured.
 inline constexpr std::size_t max_measured = 1000;
 
-/// What was found.
+/// Results of a verification.
 struct Verdicts {
     std::uint64_t rows = 0, right = 0, missed = 0, invented = 0, wrong_cell = 0, wrong_value = 0;
     std::uint64_t inside = 0, outside = 0;  ///< of all rows, exactly
@@ -128,7 +128,7 @@ struct Verdicts {
     std::uint64_t of(RowVerdict v) const {
         return std::array{right, missed, invented, wrong_cell, wrong_value}[static_cast<std::size_t>(v)];
     }
-    /// Adds what was found in rows that came after.
+    /// Adds the verdicts of rows that came after.
     void add(const Verdicts& other, std::size_t examples);
 };
 
@@ -137,15 +137,15 @@ class Verifier {
 public:
     Verifier(const Sampler& sampler, const VerifyOptions& options);
 
-    /// Holds rows against the exact ones. Returns an Error if sizes do not fit, or a coordinate is not finite
-    /// where that is an Error.
+    /// Compares rows with the exact ones. Error: sizes that do not fit; a coordinate that is not finite, unless
+    /// options().nonfinite_points makes such points outside.
     Result<Verdicts> verify(const ClaimedRows& rows) const;
 
-    /// How far rows invented lie outside, and the farthest of them as examples. To be called once, after the verdicts
-    /// of all parts of the rows were added.
+    /// Measures how far invented rows lie outside, and makes the farthest of them examples. Call it once, after the
+    /// verdicts of all parts of the rows were added.
     Status measure(Verdicts& verdicts) const;
 
-    /// What errors are relative to, a column.
+    /// The numbers that errors are relative to, one a column.
     const std::vector<double>& ranges() const { return ranges_; }
     const std::vector<RelativeTo>& relative_to() const { return relative_to_; }
     const VerifyOptions& options() const { return options_; }

@@ -14,7 +14,7 @@ using iso::PatchKind;
 
 namespace {
 
-/// Of a few: in the part of std::sort that is for more than 16, GCC 12 sees a read past the end.
+/// Sorts a few items: in the part of std::sort that is for more than 16, GCC 12 sees a read past the end.
 template <class Iterator, class Less>
 void sort_few(Iterator first, Iterator last, Less less) {
     for (Iterator i = first; i != last; ++i) {

@@ -13,7 +13,7 @@ struct Side {
     core::isoparametric::Patch patch;
     std::array<Mesh::Index, core::isoparametric::patch_nodes> nodes{};  ///< of the patch
 
-    /// Of both nodes alike.
+    /// Both have the same kind and the same nodes.
     bool same(const Side& other) const {
         return patch.kind == other.patch.kind && patch.count == other.patch.count &&
                std::equal(nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(patch.count), other.nodes.begin());
@@ -28,7 +28,7 @@ struct Side {
     }
 };
 
-/// Of a whole cell that has a map.
+/// The sides of a whole cell that has a map.
 class CellSides {
 public:
     CellSides(const mesh::CellMaps& maps, std::size_t whole, int dimension, std::uint8_t type);
@@ -54,7 +54,7 @@ private:
 std::vector<Side> edges_of_side(const Side& side);
 std::vector<Side> vertices_of_side(const Side& side);
 
-/// Of straight nodes: a vertex, an edge, or a triangle.
+/// The straight side with these nodes: a vertex, an edge, or a triangle.
 Side straight_side(std::span<const Mesh::Index> nodes, const Mesh& mesh);
 
 }  // namespace barycert::locate

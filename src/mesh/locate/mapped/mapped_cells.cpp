@@ -234,7 +234,7 @@ iso::Evaluated MappedCells::evaluate(Mesh::Index cell, Feature feature, const do
 // On lanes.
 
 void MappedCells::arrange(const CellIndex& index) {
-    /// Of voxels, hexahedra, wedges and pyramids.
+    /// Corners, in the order of lanes, of voxels, hexahedra, wedges and pyramids.
     constexpr std::array<std::array<std::uint8_t, 8>, 4> corners{
         {{0, 1, 3, 2, 4, 5, 7, 6}, {0, 1, 2, 3, 4, 5, 6, 7}, {0, 1, 2, 0, 3, 4, 5, 3}, {0, 1, 2, 3, 4, 4, 4, 4}}};
     const auto is_on_lanes = [&](std::size_t whole) {

@@ -1,22 +1,22 @@
 /// Cells that are images of their reference cells: who owns a point, and values there.
 ///
 /// Products. Hexahedra, voxels, wedges, pyramids and quadrilaterals. Their edges are straight, and the sides through
-/// four nodes that are not in one plane are pieces of hyperbolic paraboloids. What the cell and its parts
-/// (mesh/pulling.hpp) do not have in common lies in the tetrahedra of the nodes of such sides: a point in none of them
-/// is in the cell if it is in one of its parts; one that is in some, if it is on the inner side of each of these
-/// paraboloids, which are the points with a c = b d, where a, b, c, d are its weights in the tetrahedron. The
-/// tetrahedron meets no flat side but in an edge: its nodes beyond that edge are joined to the flat side's nodes by
-/// edges, along which the Jacobian is positive at both ends. So its faces that are parts' alone lie inside the cell.
-/// Where a cell cannot be cut into parts, the triangles of its sides tell of points outside those tetrahedra: on a
-/// triangle, or inside by their winding number.
+/// four nodes that are not in one plane are pieces of hyperbolic paraboloids. Points that only one of the cell and its
+/// parts (mesh/pulling.hpp) contains lie in the tetrahedra of the nodes of such sides: a point in none of them is in
+/// the cell if it is in one of its parts; one that is in some, if it is on the inner side of each of these paraboloids,
+/// which are the points with a c = b d, where a, b, c, d are its weights in the tetrahedron. The tetrahedron meets no
+/// flat side but in an edge: its nodes beyond that edge are joined to the flat side's nodes by edges, along which the
+/// Jacobian is positive at both ends. So its faces that are parts' alone lie inside the cell. Where a cell cannot be
+/// cut into parts, the triangles of its sides tell of points outside those tetrahedra: on a triangle, or inside by
+/// their winding number.
 ///
 /// Curved simplices of order 2 to 4. A point is in the cell if Newton's method finds it there, proved, and not if the
 /// cell is proved to have it nowhere else (core/isoparametric). Facets whose edges are all straight are flat, and
 /// orient3d decides on which side a point is. Mid-edge nodes that are off the middle by rounding alone count as amid; a
 /// point at such a node, or any other, is at that node.
 ///
-/// All of that holds where the map is injective, which is proved cell by cell (proved_orientation). What is not proved
-/// is left as its parts, or straight, and counted.
+/// All of that holds where the map is injective, which is proved cell by cell (proved_orientation). A cell without that
+/// proof is taken as its parts, or straight, and counted.
 #pragma once
 
 #include <unordered_map>
@@ -116,7 +116,7 @@ public:
     /// Nodes of a mapped cell, and its shape functions at the point, each rounded once; none if they are not found.
     mesh::CellMaps::Nodes weights(Mesh::Index cell, const double* point, double* out) const;
 
-    // Of points outside, whose nearest point is on a side (nearest_side.hpp).
+    // Values and weights at points outside whose nearest point is on a side (nearest_side.hpp).
 
     /// As evaluate(), at that point. NaN where a value at a node of the side is not finite.
     core::isoparametric::Evaluated evaluate_on_side(PointOnSide& on, const std::vector<const Field*>& fields,
@@ -139,8 +139,8 @@ private:
         std::uint8_t sides;  ///< a bit for each that is not flat
         bool uncut;          ///< no part of it holds a point
     };
-    /// What the sides of a cell that is mapped say of a point: if it is in the tetrahedron of one that is warped; of a
-    /// cell without parts, if it is in the cell.
+    /// Where the sides of a mapped cell put a point: by a warped side, if the point is in the side's tetrahedron; for a
+    /// cell without parts, if the point is in the cell.
     struct AtSides {
         std::size_t whole;
         bool outside;
@@ -190,8 +190,8 @@ private:
     bool products_, curves_ = false;
     std::vector<Mesh::Index> whole_;  ///< shape of each cell
     std::vector<std::int8_t> sign_;   ///< of each Jacobian; 0: no map
-    // Of cells on lanes but for simplices, in the order of space, places of their nodes in the index; and of each place
-    // of a cell there twice its number among them, and one more of a wedge: -1, it is none.
+    // Cells on lanes that are no simplices, in the order of space: places of their nodes in the index. For each place
+    // of a cell: twice its number among them, plus one if it is a wedge; -1 if it is none of them.
     struct alignas(32) LaneNodes {
         std::array<Place, 8> at;
     };

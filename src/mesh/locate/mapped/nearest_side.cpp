@@ -127,7 +127,7 @@ private:
         keep({.on = std::make_unique<PointOnSide>(vertex, point_), .low = more.low(), .high = more.high()});
     }
 
-    /// Of an edge or a facet.
+    /// Searches an edge or a facet.
     void explore(const Side& side) {
         const SquareOfDistance square(side.patch, p_, o_.corner);
         const Real error = square.error();

@@ -1,13 +1,13 @@
 /// The nearest point of a mesh in which cells have maps.
 ///
-/// Cells without maps are asked as ever (nearest.hpp). Of the others the facets of their boundary are gone through, the
-/// nearest boxes first, and of each its vertices, edges and itself. On a vertex there is one point. On edges and facets
-/// the square of the distance is cut into parts (square_parts.hpp): left out are parts that are certainly farther than
-/// the best so far, or where it slopes; Newton's method finds a point where it does not, and proves that around it
-/// there is no other (core/isoparametric/near_patch.hpp). What is left when parts are too small to tell is kept as it
-/// is, with a bound. Of the points found the nearest is taken, compared in up to 300 bits or in rational numbers; of
-/// several as near that in the lowest cell, then that on a vertex before one on an edge before one on a facet, then
-/// that with the lowest nodes, then with the lowest parameters.
+/// Cells without maps are asked as ever (nearest.hpp). The search goes through the boundary facets of the others, the
+/// nearest boxes first, and looks at the vertices and edges of each, and at the facet itself. On a vertex there is one
+/// point. On edges and facets the square of the distance is cut into parts (square_parts.hpp): left out are parts that
+/// are certainly farther than the best so far, or where it slopes; Newton's method finds a point where it does not, and
+/// proves that around it there is no other (core/isoparametric/near_patch.hpp). Parts that are too small to tell are
+/// kept as they are, with a bound. The nearest of the points found is taken, compared in up to 300 bits or in rational
+/// numbers; of several equally near the one in the lowest cell, then one on a vertex before one on an edge before one
+/// on a facet, then the one with the lowest nodes, then with the lowest parameters.
 #pragma once
 
 #include "barycert/locator.hpp"
@@ -35,7 +35,7 @@ struct NearestInMaps {
     std::unique_ptr<PointOnSide> on = {};  ///< nullptr: `nearest` is a straight cell's
 };
 
-/// Preconditions: cells have maps; the point is finite, stays where it is, and is outside.
+/// Requires: cells have maps; the point is finite, stays where it is, and is outside.
 NearestInMaps nearest_in_maps(const LocatorData& data, const double* point, double limit);
 
 }  // namespace barycert::locate

@@ -170,7 +170,7 @@ std::vector<MappedCells::AtSides> MappedCells::at_sides(const double* point) con
     return all;
 }
 
-/// Those of each face that holds the point.
+/// Bits of the nodes that are on every face that holds the point.
 std::uint64_t MappedCells::active_nodes(std::size_t shape, const double* point) const {
     const mesh::CellMaps::Nodes nodes = maps_.nodes(shape);
     std::uint64_t active = (std::uint64_t{1} << nodes.count) - 1;

@@ -17,7 +17,8 @@ constexpr std::array<std::array<Real, 9>, 9> choose{{{1},
                                                      {1, 7, 21, 35, 35, 21, 7, 1},
                                                      {1, 8, 28, 56, 70, 56, 28, 8, 1}}};
 
-/// Of monomials: the coefficient of u^i v^j in degree n counts for (k choose i) (l choose j) over what u^i v^j has.
+/// Bernstein coefficients from those of monomials: the coefficient of u^i v^j in degree n counts for (k choose i) (l
+/// choose j) over what u^i v^j has.
 SquareOfDistance::Coefficients to_bernstein(const SquareOfDistance::Coefficients& a, PatchKind kind, std::size_t n) {
     SquareOfDistance::Coefficients b{};
     const std::size_t most_l = kind == PatchKind::curve ? 0 : n;
@@ -40,7 +41,8 @@ Real offset(const iso::PatchNode& node, std::size_t k, Real o) {
     return node.other == nullptr ? own : own / 2 + (node.other[k] - o) / 2;
 }
 
-/// Coefficients of X - o in monomials. What is not constant does not depend on o, and is taken from the origin.
+/// Coefficients of X - o in monomials. Coefficients that are not constant do not depend on o, and are taken from the
+/// origin.
 std::vector<Real> coefficients_along(const iso::Patch& patch, std::size_t k, double o) {
     const iso::PatchBasis& basis = iso::patch_basis(patch);
     const double origin = patch.origin()[k];

@@ -36,7 +36,7 @@ struct Hit : SurfaceHit {
     Parameter exact;
 };
 
-/// Of the point where the line through a and b meets the plane.
+/// The parameter of the point where the line through a and b meets the plane.
 Parameter on_plane(const Segment& s, const std::array<const double*, 3>& t) {
     const core::WholePoints whole{s.a, s.b, t[0], t[1], t[2]};
     const Vector a = whole.at(t[0]);
@@ -78,7 +78,7 @@ bool is_of(const Segment& s, const Parameter& x) {
     return x.numerator >= 0 && (s.ray || x.numerator <= x.denominator);
 }
 
-/// Of two segments on one line: where that from c to d begins, as seen from a.
+/// Finds, for two segments on one line, where the one from c to d begins, as seen from a.
 bool first_on_line(const Segment& s, const Vector& along, const Vector& to_c, const Vector& to_d, Parameter& first) {
     const Number square = base::dot(along, along);
     Parameter low{base::dot(to_c, along), square}, high{base::dot(to_d, along), square};
@@ -88,7 +88,7 @@ bool first_on_line(const Segment& s, const Vector& along, const Vector& to_c, co
     return is_of(s, first);
 }
 
-/// Of a triangle without an area: a segment, of which corners in their order along it, or a point.
+/// Finds a hit of a triangle without an area: a segment, with its corners in their order along it, or a point.
 bool hit_flat(const Segment& s, const std::array<const double*, 3>& t, Hit& found) {
     const FlatCorners line = corners_along(t);
     const core::WholePoints whole{s.a, s.b, t[0], t[1], t[2]};

@@ -78,8 +78,8 @@ private:
         return pair;
     }
 
-    /// Of all candidates the places of those whose rounded distance is least, and of those where it is not certain:
-    /// rounding keeps the order, so that no other is nearest.
+    /// Returns the places of the candidates whose rounded distance is least, and of those where it is not certain:
+    /// rounding keeps the order, so no other is nearest.
     std::vector<std::uint32_t> nearest_of_many(const NearPair& of) const {
         const std::size_t count = found_.number.size();
         std::vector<NearPair> pairs;
@@ -202,18 +202,18 @@ private:
         if (!(to.distance <= limit_)) to = none();
     }
 
-    /// Of a point whose triangle and nodes are known.
+    /// Computes the answer for a point whose triangle and nodes are known.
     void round_exactly(const double* point, SurfaceNearest& to) const {
         const NearFeature f = near_feature(to.nodes, data_.surface->points, 3);
         round_on({point[0], point[1], point[2]}, f, to);
     }
 
-    /// Of candidates that floating point cannot tell apart.
+    /// Decides between candidates that floating point cannot tell apart.
     void exact(const double* point, std::span<const std::uint32_t> places, SurfaceNearest& to) const {
         take(find_nearest_of(data_.triangles.index, places, point, limit_), point, to);
     }
 
-    /// Of points that are far away, or not exact in the unit.
+    /// Answers for points that are far away, or not exact in the unit.
     void far(const double* point, SurfaceNearest& to) const {
         take(find_nearest(data_.triangles.index, data_.far_tree(), point, limit_), point, to);
     }

@@ -96,7 +96,7 @@ void SideMap::fill(const SurfaceData& surface) {
             if (place[k] != 0 && sides_[b - step[k]] != touched) sets.join(b, b - step[k]);
         }
     }
-    // Of each set, by its lowest bin.
+    // Locates each set of bins by the middle of its lowest bin.
     for (std::size_t b = 0; b < sides_.size(); ++b) {
         if (sides_[b] == touched || sets.find(b) != b) continue;
         double p[3];

@@ -1,4 +1,4 @@
-// What the triangles of a surface count in winding numbers, shell by shell (W2 of surface_locator.hpp).
+// Decides what the triangles of a surface count in winding numbers, shell by shell (W2 of surface_locator.hpp).
 //
 // Why a sum of crossings tells where a point lies. Let each triangle count a whole number of times, so that around each
 // edge those that go along it one way count as much as those that go the other way. Then the sum of what a ray crosses
@@ -130,7 +130,7 @@ private:
         }
     }
 
-    /// Of each triangle: the lowest that it is connected with over edges, of those that count.
+    /// For each triangle, the lowest that it is connected with over edges; only triangles that count take part.
     template <class Counts>
     std::vector<std::uint32_t> shells_of(Counts counts) const {
         DisjointSets sets(facets_.size());
@@ -220,8 +220,8 @@ private:
         return true;
     }
 
-    /// 1 for each side that looks into the unbounded part of space around a shell. What looks into one part, with
-    /// normals away from it, is a closed surface of a volume that is negative around the unbounded one.
+    /// 1 for each side that looks into the unbounded part of space around a shell. The sides that look into one part,
+    /// with normals away from it, are a closed surface; its volume is negative around the unbounded part.
     static std::vector<std::uint8_t> unbounded_sides(const Triangles& alone, const std::vector<double>& points) {
         DisjointSets sides(2 * alone.size());
         index::RidgeTurn turn(3, alone.facets);

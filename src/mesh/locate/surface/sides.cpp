@@ -19,7 +19,7 @@ Feature feature_of(int corners) {
     return corners == 3 ? Feature::face : corners == 2 ? Feature::edge : Feature::vertex;
 }
 
-/// Of the triangle, on which the point lies; `outside`, if it does not.
+/// The feature of the triangle on which the point lies; `outside` if it does not.
 Feature feature_at(const Triangles& triangles, std::size_t t, const double* p) {
     const PlacedFacet& f = triangles.facets[t];
     if (triangles.is_flat(t)) {

@@ -13,7 +13,7 @@ using index::PlacedFacet, index::Ridge, index::Triangles;
 
 struct SurfaceData;
 
-/// What triangles count in winding numbers (side_rules.cpp).
+/// Numbers that triangles count in winding numbers (side_rules.cpp).
 struct SideCounts {
     SideRules rules;
     /// By place: how many times a triangle counts as it is turned, or `parity`; empty: each once.
@@ -35,7 +35,7 @@ public:
         if (times != SideCounts::parity) winding_ += times * crossing;
     }
     int sum() const { return winding_ + parity_; }
-    /// Both in one number. Precondition: fits().
+    /// Both in one number. Requires: fits().
     std::int16_t code() const { return static_cast<std::int16_t>(2 * winding_ + parity_); }
     bool fits() const { return winding_ > -16000 && winding_ < 16000; }
 
@@ -91,7 +91,7 @@ struct NearGroups {
         double low[3][8], high[3][8];
     };
 
-    /// Precondition: there is a triangle.
+    /// Requires: there is a triangle.
     explicit NearGroups(const CellIndex& index);
 
     bool usable = false;                ///< all coordinates are exact in that unit
@@ -115,14 +115,14 @@ struct NearGroups {
     std::size_t bytes() const { return triangles.bytes() + boxes.bytes() + order.size() * sizeof(std::uint32_t); }
 };
 
-/// What is left to be decided exactly: triangles, and how near a point of each may be, in squares.
+/// Triangles that are left to be decided exactly, and how near a point of each may be, in squares.
 struct NearCandidates {
     std::vector<std::uint32_t> number;  ///< in NearGroups::order
     std::vector<double> low;
 };
 
 /// All triangles that may have the nearest point, or one as near, if it is not farther than sqrt(square) in the unit.
-/// `hint`: a triangle to begin with; becomes one that is near. Precondition: usable; the point was taken.
+/// `hint`: a triangle to begin with; becomes one that is near. Requires: usable; the point was taken.
 void find_candidates(const NearGroups& groups, const double (&point)[3], double square, std::uint32_t& hint,
                      NearCandidates& found);
 
@@ -153,7 +153,7 @@ struct SurfaceData {
     std::unique_ptr<BoxGroups> boxes;  ///< of the triangles
 
     bool empty() const { return triangles.size() == 0; }
-    /// Preconditions for these: not empty.
+    /// These require: not empty.
     const NearestTree& far_tree() const {
         return far_tree_.get([&] { return NearestTree(triangles.index); });
     }
@@ -168,7 +168,7 @@ struct SurfaceData {
                bytes_of(far_tree_, near_groups_, side_map_);
     }
 
-    /// Exact, without the map. Precondition: finite.
+    /// Exact, without the map. Requires: finite.
     SurfaceLocation locate(const double* p) const;
     SurfaceLocation locate(const double* p, SideSum& side) const;
     SurfaceLocation locate_by_map(const double* p) const;
@@ -178,8 +178,8 @@ struct SurfaceData {
     void nearest_on(Mesh::Index triangle, const double* p, SurfaceNearest& to) const;
     std::vector<SurfaceHit> hits(const double* a, const double* b, bool ray) const;
 
-    /// What the triangles between p and the end of a ray along the first axis, which has the sum `side`, tell of p: the
-    /// lowest that holds it, or its own sum.
+    /// Locates p by the triangles between p and the end of a ray along the first axis, which has the sum `side`: on the
+    /// lowest triangle that holds it, or by its own sum.
     SurfaceLocation on_the_way(const double* p, const double* end, SideSum& side) const;
     SurfaceLocation as_location(const SideSum& side) const {
         const int winding = sides.rules.turned == Turned::open ? 0 : side.sum();

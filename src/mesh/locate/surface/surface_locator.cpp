@@ -48,7 +48,7 @@ void set_on(const Surface& s, const double* p, SurfaceNearest& n) {
     n.on = index::proper(3, f) ? index::face_around(3, f, p)[0] >= 0 : part_of_flat(f.at, p) != 0;
 }
 
-/// Of points [first, last), those near each other one after the other.
+/// Finds the nearest triangles of points [first, last), those near each other one after the other.
 void nearest_of_block(const SurfaceData& data, std::span<const double> points, double limit, std::size_t first,
                       std::size_t last, std::span<SurfaceNearest> found) {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> order(last - first);

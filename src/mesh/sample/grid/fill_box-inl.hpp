@@ -6,9 +6,9 @@
 // Weight j < last of a point p in the cell's box, w = fl(p - o), is l_j = sum_k S_jk w_k with S_jk = fl(n_jk inv); the
 // last is 1 + sum_k S_k w_k with S = -sum_j S_j. As |w_k| <= X_k there, refinement-inl.hpp bounds the error of l_j by
 // u B(w)/|d| (98.1 K + 21) 1.002, and B(w)/|d| <= 3 K: 296 K^2 + 64 K, with the rounding of the difference w (2.0001 u
-// B(w)/|d|) below u (300 K^2 + 75 K). Of the last weight: three times that, and three roundings of sums of numbers that
-// are below 3 * 3 K: u (900 K^2 + 300 K + 2). E = u (1000 K^2 + 400 K + 8) bounds all of them, however the sums are
-// arranged, and also where nothing is rounded but S.
+// B(w)/|d|) below u (300 K^2 + 75 K). For the last weight: three times that, and three roundings of sums of numbers
+// that are below 3 * 3 K: u (900 K^2 + 300 K + 2). E = u (1000 K^2 + 400 K + 8) bounds all of them, however the sums
+// are arranged, and also where nothing is rounded but S.
 //
 // Included once per SIMD target.
 #if defined(BARYCERT_SAMPLE_FILL_BOX_INL_HPP) == defined(HWY_TARGET_TOGGLE)

@@ -89,7 +89,7 @@ HWY_INLINE void set_block(D tag, const Filling<d>& to, FillBlock<Values, d>& b, 
 /// Blocks that are set up one after the other, as each hides the waits of the next.
 constexpr std::size_t blocks_at_once = 8;
 
-/// Of a cell with few points in its box, those that it holds: entries [begin, end) of a list of places. Those of which
+/// The points that a cell with few points in its box holds: entries [begin, end) of a list of places. Points of which
 /// this is open follow, up to open_end, where there is one value a point.
 struct BoxFill {
     std::size_t block, lane, begin, end, open_end;
@@ -102,7 +102,7 @@ HWY_INLINE std::array<std::int32_t, 3> in_grid(const CellBlock<d>& cells, std::s
             (d == 3 ? cells.first[d - 1][l] : 0) + (place >> 2 * box_bits)};
 }
 
-/// Of the vector from entry `at` on, those points of which it is open whether the cell holds them.
+/// Lists, from the vector at entry `at` on, the points of which it is open whether the cell holds them.
 template <template <int> class Values, int d>
 HWY_NOINLINE void list_open(const Filling<d>& to, const FillBlock<Values, d>& b, const BoxFill& one,
                             const std::int32_t* found, std::size_t at, std::size_t width, const double* values,
@@ -364,7 +364,7 @@ void fill_all(const FillSource& source, std::span<const locate::Place> cells, co
                 return source.index.cells.data() + cells[std::min(at + ahead * width + l, cells.size() - 1)];
             };
             b.place[l] = cells[std::min(at + l, cells.size() - 1)];
-            // Of a cell two vectors ahead the nodes, of one eight vectors ahead their numbers.
+            // Fetches the nodes of a cell two vectors ahead, and the numbers of the nodes of one eight vectors ahead.
             __builtin_prefetch(later(8));
             for (std::size_t i = 0; i <= d; ++i) __builtin_prefetch(source.nodes.first + later(2)->node[i]);
         }

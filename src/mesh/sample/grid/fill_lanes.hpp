@@ -34,7 +34,7 @@ struct Span {
 /// The points of some layers (2D: lines) of a grid, line after line. Each array has room for a vector more.
 struct FillTarget {
     Mesh::Index* owner = nullptr;  ///< -1: none yet
-    /// Of a point with an owner: outside means interior. Of others: outside.
+    /// Feature of a point with an owner, where outside means interior; outside for a point without one.
     Feature* feature = nullptr;
     /// The value is still to be found. Set with `feature`: of no meaning before.
     std::uint8_t* value_missing = nullptr;
@@ -55,7 +55,7 @@ struct FillTarget {
     }
 };
 
-/// What cells fill in: the points of a grid, by the components of the nodes. Cells are linear. If there are no
+/// Data from which cells fill in the points of a grid: the components of the nodes. Cells are linear. If there are no
 /// components, values are missing everywhere.
 struct FillSource {
     const locate::CellIndex& index;
@@ -97,8 +97,8 @@ struct FinishedPoints {
     std::vector<std::uint32_t> others;  ///< those without a value, by their numbers, ascending
 };
 
-/// Points [first, last) of the target: sets features, and adds to `out`. Those outside get `*outside` for each of their
-/// `stride` numbers; if that is nullptr they go to `others`.
+/// Points [first, last) of the target: sets features, and adds to `out`. Points outside get `*outside` for each of
+/// their `stride` numbers; if that is nullptr they go to `others`.
 void finish_points(const FillTarget& target, std::size_t first, std::size_t last, const double* outside,
                    FinishedPoints& out);
 

@@ -21,7 +21,9 @@ namespace barycert::sample::HWY_NAMESPACE {
 // inside. Where |S_jx| X_x <= E, the weight is a_j up to E along the row, and nothing is solved: certainly outside
 // below -2 E, certainly inside above 2 E.
 
-/// Of each plane, by cell of a block: the weight along a row at (w_y, w_z) is a = constant + sy w_y + sz w_z at w_x =
+/// Coefficients of a plane, for each cell of a block: the weight along a row at (w_y, w_z) is a = constant + sy w_y +
+/// sz w_z at w_x = 0. It bounds the row from below at t = lower - a * lower_factor -+ lower_width, from above likewise;
+/// where it does not, the bound is far away and its factor 0.
 /// 0. It bounds the row from below at t = lower - a * lower_factor -+ lower_width, from above likewise; where it does
 /// not, the bound is far away and its factor 0.
 struct PlaneBlock {
@@ -57,7 +59,7 @@ HWY_INLINE void set_plane(D tag, const Raster& raster, V constant, const V (&s)[
     hn::Store(hn::IfThenElse(rising, zero, width), tag, out.upper_width);
 }
 
-/// Of the cells of a block, the weights along rows.
+/// The weights along rows, of the cells of a block.
 template <int d>
 using RowsBlock = PlaneBlock[d + 1];
 
@@ -77,7 +79,7 @@ struct Rows {
     std::size_t count;
 };
 
-/// What MaxLanes of them have in common with the cell.
+/// Points that MaxLanes rows have in common with the cell.
 struct RowBlock {
     HWY_ALIGN std::int32_t first[max_lanes], inner_first[max_lanes], inner_last[max_lanes], last[max_lanes];
     std::uint32_t with_points = 0;  ///< bits: rows with certain points
@@ -128,7 +130,7 @@ HWY_INLINE void find_intervals(D tag, const CellBlock<d>& cell, const RowsBlock<
 // bounds all that is lost. Ranges: M <= 2^900, so nothing overflows; and error >= 2^-960, or M = C = 0, as
 // underflow takes at most 2^-1070 in each of some 20 operations.
 //
-// What each axis contributes is found once a place, not once a point.
+// The share of each axis is computed once a place, not once a point.
 
 /// Lane l: table[index of lane l].
 template <class D>
@@ -151,7 +153,7 @@ HWY_INLINE Partial<V> added(const Partial<V>& x, const Partial<V>& y) {
 
 template <int d>
 struct CorrectValues {
-    /// Of a component, by cell of a block.
+    /// Coefficients of a component, by cell of a block.
     struct CellValues {
         HWY_ALIGN double at_origin[max_lanes], plain[d][max_lanes], correction[d][max_lanes], error[max_lanes];
         std::uint32_t valid;  ///< bits
@@ -180,7 +182,7 @@ struct CorrectValues {
         out.valid = mask_bits(tag, valid);
     }
 
-    /// What axis k contributes to component `b` of cell l at places `at`; that of the second one with f_o.
+    /// The share of axis k in component `b` of cell l at places `at`; that of the second axis includes f_o.
     template <int k, class D, class V = hn::Vec<D>>
     static HWY_INLINE Partial<V> term(D tag, const CellBlock<d>& cell, const CellValues& b, std::size_t l, V at) {
         const TwoTerms<V> w = two_difference(at, hn::Set(tag, cell.origin[k][l]));

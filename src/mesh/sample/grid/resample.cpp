@@ -82,7 +82,7 @@ public:
     }
 
 private:
-    /// Of cells that follow one another: those of each slab, from the first one on.
+    /// The cells of each slab, from the first slab on, among cells that follow one another.
     struct RunOfCells {
         std::size_t first_slab = 0;
         base::Lists<locate::Place> cells;
@@ -110,7 +110,7 @@ public:
         target_ = {to.cells, to.features, value_missing_.data(), to.values, data_.width, columns, rows, first, last};
         counts_ = {};
         sampler_.emplace(data_, options_, to);
-        // Of plain values, fill_cells does not see which have a node that is not finite.
+        // With plain values, fill_cells does not see which cells have a node that is not finite.
         filled_ =
             !data_.quadratic && data_.point_components != 0 && (data_.finite || options_.rounding == Rounding::correct);
         cells.for_parts(slab, [&](std::span<const locate::Place> some) {

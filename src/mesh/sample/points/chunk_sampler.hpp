@@ -14,7 +14,7 @@ inline bool gives_distances(const OutsidePolicy& policy) {
     return policy.kind == Outside::nearest || policy.kind == Outside::extrapolate;
 }
 
-/// That a point is outside, under the policy `error`.
+/// Returns the error that a point is outside, under the policy `error`.
 inline Error outside_error(const std::string& point) {
     return {.what = point + " is outside the mesh",
             .remedy = "choose what points outside get: nan, fill, nearest or extrapolate"};
@@ -40,9 +40,9 @@ inline BlockRows make_room(FoundRows& rows, std::size_t count, std::size_t width
             rows.distances.empty() ? nullptr : rows.distances.data()};
 }
 
-/// What a row has besides the values of point fields. Sets the values of the cell fields of the cell, and what is
-/// computed at the point, into their columns of a row whose values of point fields stand. `point`: where gradients on
-/// cells of second order are evaluated; not read if there are none.
+/// Sets the columns of a row besides the values of point fields, which stand: the values of the cell fields of the
+/// cell, and what is computed at the point. `point`: where gradients on cells of second order are evaluated; not read
+/// if there are none.
 void set_rest_of_row(const SamplerData& data, Rounding rounding, Mesh::Index cell, const double* point, double* row);
 
 /// Not shared between threads.
@@ -51,7 +51,7 @@ public:
     /// `in_parts`: owners are those in parts of cells, or as if all were straight.
     ChunkSampler(const SamplerData& data, const SampleOptions& options, const BlockRows& rows, bool in_parts = true);
 
-    /// Precondition: points with an owner are finite; owners are places of cells, or -1 outside. Where cells have maps,
+    /// Requires: points with an owner are finite; owners are places of cells, or -1 outside. Where cells have maps,
     /// rows are complete after flush().
     void operator()(const locate::PointRecord* points, std::size_t count, const locate::Place* owner,
                     const Feature* feature) {
@@ -98,7 +98,7 @@ private:
     /// Sets the values of a point outside, and its distance if the policy gives some; or returns the nearest cell,
     /// whose function is to be evaluated there.
     locate::Place outside(const locate::PointRecord& point);
-    /// Of one whose nearest point is that of a cell with a map.
+    /// The same for a point whose nearest point is that of a cell with a map.
     void outside_maps(const locate::PointRecord& point, const locate::NearestInMaps& nearest);
     void interpolate_linear(const locate::PointRecord* points, std::size_t count);
     void interpolate_exactly(const locate::PointRecord& point, locate::Place cell);

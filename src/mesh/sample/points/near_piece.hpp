@@ -1,4 +1,5 @@
-/// What values and weights are computed in: the nodes of a cell, and the part of a mesh nearest to a point outside.
+/// The places where values and weights are computed: the nodes of a cell, and the part of a mesh nearest to a point
+/// outside.
 #pragma once
 
 #include <algorithm>

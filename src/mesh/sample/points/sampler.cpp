@@ -103,7 +103,7 @@ void arrange_by_node(SamplerData& data) {
     }
 }
 
-/// What is computed for each point, by what is left of the steps of a choice.
+/// The quantity to compute for each point: the steps of a choice that no field has.
 AtPoint at_points(const Mesh& mesh, const FieldChoice& choice) {
     using Kind = QuantityStep::Kind;
     AtPoint late{choice.field, 0, components_of(choice.field)};
@@ -112,7 +112,7 @@ AtPoint at_points(const Mesh& mesh, const FieldChoice& choice) {
             late.gradient = true;
             late.components *= static_cast<std::size_t>(mesh.dimension);
         }
-        // Of one component none but the first can be asked for again.
+        // Keeps the first: after one component is selected, a later step can only select that one.
         if (step.kind == Kind::component && late.component < 0) late.component = step.component;
         if (step.kind == Kind::length) late.length = true;
     }
@@ -183,7 +183,8 @@ void resize(const SamplerData& data, const SampleOptions& options, std::size_t r
     out.distances.assign(gives_distances(options.outside) ? rows : 0, 0);
 }
 
-/// What the policies say of the rows: an Error, or NaN where a point is not finite. `finite`: all points are.
+/// Applies the policies to the rows: returns an Error, or sets NaN where a point is not finite. `finite`: all points
+/// are.
 Status apply_policies(std::span<const double> points, bool finite, const SampleOptions& options,
                       std::size_t first_point, Table& out) {
     const auto d = static_cast<std::size_t>(out.dimension);

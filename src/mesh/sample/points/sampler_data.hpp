@@ -17,7 +17,7 @@ struct FoundRows {
     std::vector<double> distances;
 };
 
-/// What no field has, computed for each point.
+/// A quantity that no field has, computed for each point.
 struct AtPoint {
     const Field* field = nullptr;  ///< of nodes
     std::size_t first = 0;         ///< its components in a row; of a gradient, none
@@ -69,7 +69,7 @@ struct SamplerData {
 Status sample_on_grid(const SamplerData& data, std::span<const double> points, const SampleOptions& options,
                       Table& out);
 
-/// Of `count` rows that are `width` numbers each leaves the columns, row after row.
+/// Removes the hidden numbers from `count` rows of `width` numbers each, so that the columns follow row after row.
 inline void leave_out_hidden(const SamplerData& data, double* rows, std::size_t count) {
     const std::size_t columns = data.columns.size();
     for (std::size_t i = 0; data.hidden != 0 && i < count; ++i)

@@ -10,7 +10,7 @@ namespace {
 
 using Kind = QuantityStep::Kind;
 
-/// Of nodes, or of cells; and what may stand before their names.
+/// The fields of nodes or of cells; and the prefix that may stand before their names.
 const std::vector<Field>& fields_of(const Mesh& mesh, bool cells) {
     return cells ? mesh.cell_fields : mesh.point_fields;
 }
@@ -35,7 +35,7 @@ bool choose_field(const Mesh& mesh, std::string_view name, FieldChoice& chosen) 
     return false;
 }
 
-/// That there is no such field, which may be meant, and which there are.
+/// Returns the error that there is no such field, which one may be meant, and which there are.
 Error no_such_field(const Mesh& mesh, const std::string& name) {
     const auto list = [](const std::vector<Field>& fields) { return base::joined(fields, ", ", &Field::name); };
     const std::string points = list(mesh.point_fields), cells = list(mesh.cell_fields);

@@ -108,7 +108,7 @@ Result<FieldChoice> number_named(const Mesh& mesh, const std::string& name) {
 // comes of e, less than 2^-20 units in the last place. Beyond the normal numbers the last product rounds once more, to
 // the same unit: by half of it.
 //
-// Of a vector whose components are correctly rounded, each is off by at most u of itself, or 2^-1075 where it is
+// A vector whose components are correctly rounded has each off by at most u of itself, or 2^-1075 where it is
 // subnormal, so the length is off by u of itself, which is less than one unit in the last place, or sqrt(n) 2^-1075.
 // With n <= 9 that is 1.5 subnormal units: together with the last rounding less than 1.51 units where the length is not
 // subnormal, else at most 2.

@@ -21,9 +21,9 @@
 //
 // Ranges; outside them nothing is certain. Extents in [2^-100, 2^100]: V <= 2^303, and E_i >= 2^-399. The largest |f_i|
 // F is 0, and then so is the mean; or in [2^-200, 2^600]: S <= 2^940, also with 2^32 cells, and no factor of a product
-// is above 2^640. What underflows in a volume is below 2^-1070 * 2^200, in a product V f below 2^-1070, and less than
+// is above 2^640. The underflow in a volume is below 2^-1070 * 2^200, in a product V f below 2^-1070, and less than
 // 2^-860 in all, against E_i >= 2^-399 and against E_S >= E_i F >= 2^-599 of the cell with F. In the quotient A <=
-// 2^336: what underflows there is below 2^-1070, the bound at least 2^-599 / 2^336. NaN ends in a comparison that is
+// 2^336: the underflow there is below 2^-1070, the bound at least 2^-599 / 2^336. NaN ends in a comparison that is
 // false, an infinite value in F.
 #include "mesh/sample/quantity/mean_lanes.hpp"
 

@@ -15,7 +15,7 @@ struct CellVolume {
 /// The volumes of cells [first, first + count) to out[0] to out[count - 1].
 void volume_lanes(const Mesh& mesh, std::size_t first, std::size_t count, CellVolume* out);
 
-/// What means are made of.
+/// Data from which means are computed.
 struct MeanInput {
     const base::Lists<Mesh::Index>& cells;  ///< of each node
     std::span<const CellVolume> volumes;    ///< of all cells

@@ -11,7 +11,7 @@ namespace barycert::sample {
 /// The field of that name; nullptr if there is none.
 const Field* field_named(const std::vector<Field>& fields, std::string_view name);
 
-/// Those of nodes, then those of cells.
+/// The names of fields of nodes, then of fields of cells.
 std::vector<std::string> all_field_names(const Mesh& mesh);
 
 /// Calls visit(name) for each of the names between commas, until it returns false.
@@ -25,7 +25,7 @@ bool for_names(std::string_view text, Visit visit) {
     }
 }
 
-/// Of the columns.
+/// The name of the choice's columns.
 inline const std::string& name_of(const FieldChoice& choice) {
     return choice.name.empty() ? choice.field->name : choice.name;
 }
@@ -36,13 +36,13 @@ struct QuantityShape {
     bool at_points = false;  ///< no field has it: it is computed for each point
 };
 
-/// Precondition: the choice has a field. Error: a step that cannot follow those before it.
+/// Requires: the choice has a field. Error: a step that cannot follow those before it.
 Result<QuantityShape> shape_of(const Mesh& mesh, const FieldChoice& choice);
 
 /// The fields of these names, or what expressions make of them; a field that has the whole text as its name goes
-/// before. What lies in nodes comes first, then what lies in cells, then what is computed for each point; all fields if
-/// no name is given. A name may be several, with commas between them. The mesh must stay. Returns an Error if there is
-/// no such field, with a list of those there are, or if one is named twice.
+/// before. Fields of nodes come first, then fields of cells, then quantities computed for each point; all fields if no
+/// name is given. A name may be several, with commas between them. The mesh must stay. Returns an Error if there is no
+/// such field, with a list of those there are, or if one is named twice.
 Result<std::vector<FieldChoice>> quantities_named(const Mesh& mesh, const std::vector<std::string>& names);
 
 /// The expression with another innermost name, if it is one of `name` (of cell:NAME, point:NAME); else nothing.
@@ -51,7 +51,7 @@ std::optional<std::string> with_other_name(std::string_view expression, std::str
 // Fields that are made of others.
 
 /// Takes the first `count` steps of the choice, as far as a field has what they give (see shape_of): what is left is
-/// computed for each point. The choice is then of a field in `made`, whose places must stay. Preconditions: shape_of
+/// computed for each point. The choice is then of a field in `made`, whose places must stay. Requires: shape_of
 /// accepts the choice, and the mesh is consistent; data of the field are as many as it needs.
 /// `lengths`: those of fields of nodes are made as well, of what the nodes have; at a point between them the length is
 /// another number than what is interpolated of these.
@@ -62,7 +62,7 @@ void make_fields(const Mesh& mesh, FieldChoice& choice, std::size_t count, std::
 /// what no field has, the gradient on cells of second order.
 Status make_all_fields(const Mesh& mesh, std::vector<FieldChoice>& choices, std::deque<Field>& made, Notes& notes);
 
-/// What `name` means, if it is one number a node or cell. Error: several numbers, or no such field.
+/// Returns the choice that `name` means, if it is one number a node or cell. Error: several numbers, or no such field.
 Result<FieldChoice> number_named(const Mesh& mesh, const std::string& name);
 
 /// sqrt(sum v_i^2), within 0.51 units in the last place of the exact length where that is not subnormal, else within
@@ -74,7 +74,7 @@ double euclidean_length(std::span<const double> v);
 /// volumes (areas in the plane; with straight sides): sum |V_c| f_c / sum |V_c|, exact and rounded once, to nearest,
 /// ties to even. Cells may have any orientation and may overlap; degenerate ones weigh nothing. NaN where a value of a
 /// cell that is not degenerate is not finite, and at nodes of no other cells. Without a name.
-/// Preconditions: the mesh is consistent, and the field has values for its cells.
+/// Requires: the mesh is consistent, and the field has values for its cells.
 Field nodal_mean(const Mesh& mesh, const Field& of_cells);
 
 }  // namespace barycert::sample

@@ -46,7 +46,7 @@ private:
         for (std::size_t i = first; i < last; ++i) {
             const double* const point = rows_.points.data() + d_ * i;
             Mesh::Index cell = rows_.cells[i];
-            // What is extrapolated is the function of the nearest cell.
+            // Extrapolates the function of the nearest cell.
             if (cell < 0 && outside_.kind == Outside::extrapolate && base::all_finite({point, d_}))
                 cell = nearest(point, std::numeric_limits<double>::infinity()).cell;
             owners_.push_back(cell);
@@ -83,13 +83,13 @@ private:
         return Done{};
     }
 
-    /// That of a cell with straight sides, where some have maps.
+    /// The nearest point of cells with straight sides, where some cells have maps.
     Nearest nearest(const double* point, double limit) const {
         if (mapped_ == nullptr) return *locator_.nearest(point, limit);
         return locate::nearest_in_maps(locate::LocatorData::of(locator_), point, limit).nearest;
     }
 
-    /// Of a point outside, if its nearest one is that of a cell with a map.
+    /// Adds the row of a point outside, and returns true, if its nearest point is that of a cell with a map.
     bool add_outside_maps(const double* point) {
         const bool beyond = outside_.kind == Outside::extrapolate;
         if ((!beyond && outside_.kind != Outside::nearest) || !base::all_finite({point, d_})) return false;
@@ -167,7 +167,7 @@ private:
     const OutsidePolicy& outside_;
     std::size_t d_ = static_cast<std::size_t>(mesh_.dimension), corners_ = mesh_.corners();
     Simplex simplex_ = d_ == 2 ? Simplex::triangle : Simplex::tetrahedron;
-    /// Of a cell.
+    /// Nodes of a cell.
     std::size_t nodes_ = corners_ + (quadratic() ? static_cast<std::size_t>(mid_node_count(simplex_)) : 0);
     NodeWeights out_{{0}, {}, {}};
     std::vector<Mesh::Index> owners_, cells_, corner_numbers_, mid_numbers_, own_;

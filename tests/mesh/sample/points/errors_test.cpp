@@ -1,4 +1,4 @@
-// What a Sampler refuses.
+// Input that a Sampler refuses.
 #include <gtest/gtest.h>
 
 #include <cfenv>

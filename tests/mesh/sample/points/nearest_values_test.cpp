@@ -46,8 +46,8 @@ struct Range {
     }
 };
 
-/// Of component c on the closed cell: between the nodal values, or between the coefficients of the quadratic in
-/// Bernstein's form, which on an edge from a to b with m in its middle are a, b and 2 m - (a + b) / 2.
+/// The range of component c on the closed cell: between the nodal values, or between the coefficients of the quadratic
+/// in Bernstein's form, which on an edge from a to b with m in its middle are a, b and 2 m - (a + b) / 2.
 Range range_in(const Mesh& mesh, const Field& field, std::size_t c, Mesh::Index cell) {
     const auto n = static_cast<std::size_t>(field.components);
     const auto at = [&](Mesh::Index node) { return field.data[n * static_cast<std::size_t>(node) + c]; };

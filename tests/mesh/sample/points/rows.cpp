@@ -40,7 +40,7 @@ double true_value(const Mesh& mesh, const Field& field, std::size_t c, Mesh::Ind
     const bool quadratic = !mesh.mid_nodes.empty();
     const unsigned support = ask_oracle(question).support;
     bool finite = true;
-    // What has no part is left out: l = 0, and on quadratic cells l = 1/2 and edges of corners with l = 0.
+    // Nodes that have no part are left out: l = 0, and on quadratic cells l = 1/2 and edges of corners with l = 0.
     const auto take = [&](double f, bool has_part) {
         finite &= std::isfinite(f) || (!has_part && support != 0);
         return std::isfinite(f) ? f : 0;

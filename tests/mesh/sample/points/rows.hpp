@@ -1,4 +1,4 @@
-/// What Sampler must say: rows by the oracle, cell by cell.
+/// Rows that Sampler must give: by the oracle, cell by cell.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-/// What is made of fields, in GMP's rationals.
+/// Quantities made of fields, in GMP's rationals.
 #pragma once
 
 #include <gmpxx.h>
