@@ -42,9 +42,9 @@ constexpr bool is_inside(Region r) {
 }
 
 /// Returns the error that `word` is none of these names.
-inline Error unknown_name(std::string what, std::string expected, const std::string& word,
+inline Error unknown_name(ErrorCode code, std::string what, std::string expected, const std::string& word,
                           const std::vector<std::string>& names, std::string_view lists = {}) {
-    return file_error({}, std::move(what), std::move(expected), '"' + word + '"',
+    return file_error(code, {}, std::move(what), std::move(expected), '"' + word + '"',
                       base::did_you_mean(word, names, lists));
 }
 

@@ -55,8 +55,8 @@ std::string in_words(std::uint64_t seed, std::uint64_t count) {
 }
 
 Error not_comparable(const Baseline& b, std::string expected, std::string found, std::string remedy) {
-    return file_error(b.path, "the baseline is not comparable: it has other cases", std::move(expected),
-                      std::move(found), std::move(remedy));
+    return file_error("baseline.unfit", b.path, "the baseline is not comparable: it has other cases",
+                      std::move(expected), std::move(found), std::move(remedy));
 }
 
 bool given_up(const KernelResult& k) {
@@ -99,8 +99,9 @@ Result<Baseline> read_baseline(const std::string& path) {
 
 Status check_comparable(const Baseline& b, const AuditOptions& options, const MeshSource& meshes) {
     if (b.seed != options.seed || b.count != options.count)
-        return not_comparable(b, in_words(options.seed, options.count), in_words(b.seed, b.count),
-                              fmt::format("give job.seed {} job.count {}, or make a new baseline", b.seed, b.count));
+        return about("job.seed", not_comparable(b, in_words(options.seed, options.count), in_words(b.seed, b.count),
+                                                fmt::format("give job.seed {} job.count {}, or make a new baseline",
+                                                            b.seed, b.count)));
     if (std::ranges::any_of(options.families, &Family::needs_mesh)) {
         std::vector<std::string> names;
         for (const auto& m : meshes.meshes()) names.push_back(m->name);
@@ -151,7 +152,7 @@ Result<BaselineComparison> compare_with_baseline(const AuditReport& report, cons
         }
     }
     if (result.compared == 0)
-        return file_error(b.path,
+        return file_error("baseline.unfit", b.path,
                           "the baseline is not comparable: it has no kernel and family in common with this audit");
     result.not_now = b.entries.size() - result.compared;
     return result;

@@ -13,12 +13,12 @@ namespace {
 
 /// Items that match one of the globs, in the order of the catalogue.
 template <class Item>
-Result<std::vector<Item>> chosen(const std::vector<std::string>& globs, std::vector<Item> items,
+Result<std::vector<Item>> chosen(const std::vector<std::string>& globs, std::vector<Item> items, ErrorCode code,
                                  const std::string& what, std::string_view lists) {
     if (globs.empty()) return items;
     for (const std::string& glob : globs) {
         if (std::ranges::none_of(items, [&](const Item& i) { return base::glob_match(glob, i.name); }))
-            return audit::unknown_name("no " + what + " of that name", "", glob, names_of(items), lists);
+            return audit::unknown_name(code, "no " + what + " of that name", "", glob, names_of(items), lists);
     }
     std::erase_if(items, [&](const Item& item) {
         return std::ranges::none_of(globs, [&](const std::string& glob) { return base::glob_match(glob, item.name); });
@@ -47,7 +47,8 @@ Result<std::vector<Kernel>> choose_kernels(const KernelChoice& choice) {
     Result<std::vector<Kernel>> all = std::vector<Kernel>{};
     // With a library named and no glob, only the library's kernels are meant.
     if (!choice.names.empty() || choice.libraries.empty()) {
-        all = chosen(choice.names, catalogue(), "kernel", "`barycert kernels` lists them; * and ? are wildcards");
+        all = chosen(choice.names, catalogue(), "kernel.unknown", "kernel",
+                     "`barycert kernels` lists them; * and ? are wildcards");
         if (!all) return all;
     }
     for (const std::string& path : choice.libraries) {
@@ -55,7 +56,7 @@ Result<std::vector<Kernel>> choose_kernels(const KernelChoice& choice) {
             choice.in_process ? load_kernel_library(path) : load_contained_kernel(path, choice.seconds);
         if (!kernel) return kernel.error();
         if (std::ranges::find(*all, kernel->name, &Kernel::name) != all->end())
-            return file_error(path, "two kernel libraries have the same name", "", kernel->name,
+            return file_error("kernel.name", path, "two kernel libraries have the same name", "", kernel->name,
                               "set another info->name in one of them");
         all->push_back(std::move(*kernel));
     }
@@ -69,8 +70,10 @@ Result<std::vector<Kernel>> choose_kernels(const KernelChoice& choice) {
 
 Result<Kernel> choose_kernel(const KernelChoice& choice) {
     if (choice.names.empty() == choice.libraries.empty())
-        return file_error({}, "which kernel", "the name of one kernel, or job.kernel_library FILE",
-                          choice.names.empty() ? "neither" : "both", "`barycert kernels` lists the names");
+        return about("job.kernel_library",
+                     file_error(choice.names.empty() ? ErrorCode("option.missing") : ErrorCode("option.conflict"), {},
+                                "which kernel", "the name of one kernel, or job.kernel_library FILE",
+                                choice.names.empty() ? "neither" : "both", "`barycert kernels` lists the names"));
     if (!choice.libraries.empty()) {
         const Result<std::vector<Kernel>> one = choose_kernels(choice);
         return one ? one->front() : Result<Kernel>(one.error());
@@ -78,20 +81,21 @@ Result<Kernel> choose_kernel(const KernelChoice& choice) {
     const std::string& name = choice.names.front();
     const std::vector<Kernel> kernels = kernels_matching(name);
     if (kernels.size() == 1) return kernels.front();
-    Error error = audit::unknown_name("which kernel", "the name of one kernel", name, names_of(catalogue()),
-                                      "`barycert kernels` lists the names");
+    Error error = audit::unknown_name("kernel.unknown", "which kernel", "the name of one kernel", name,
+                                      names_of(catalogue()), "`barycert kernels` lists the names");
     if (!kernels.empty()) error.found = std::to_string(kernels.size()) + " of them";
     return error;
 }
 
 Result<std::vector<Family>> choose_families(const std::vector<std::string>& names) {
-    return chosen(names, all_families(), "family", "`barycert families` lists them; * and ? are wildcards");
+    return chosen(names, all_families(), "family.unknown", "family",
+                  "`barycert families` lists them; * and ? are wildcards");
 }
 
 Status check_search_rules(const std::vector<Threshold>& rules) {
     for (const Threshold& rule : rules) {
         if (!figure({}, rule.name))
-            return file_error({}, "a rule on a figure that a search does not measure",
+            return file_error("rule.unfit", {}, "a rule on a figure that a search does not measure",
                               "any, a class of finding, worst_weight_ulp or worst_value_ulp", rule.name);
     }
     return Done{};
@@ -112,7 +116,8 @@ Result<GapsLimit> parse_gaps_limit(std::string_view text) {
     for (std::size_t f = 0; f < claim_fault_count; ++f) names.emplace_back(name(static_cast<ClaimFault>(f)));
     const auto fault = std::ranges::find(names, limit.name) - names.begin();
     if (fault != std::ssize(names) && limit.most) return GapsLimit{static_cast<ClaimFault>(fault), *limit.most};
-    return file_error({}, "unknown rule", "gaps, several, wrong, wrong_first or outside_claimed, perhaps >NUMBER",
+    return file_error("rule.unknown", {}, "unknown rule",
+                      "gaps, several, wrong, wrong_first or outside_claimed, perhaps >NUMBER",
                       '"' + std::string(text) + '"', base::did_you_mean(limit.name, names));
 }
 

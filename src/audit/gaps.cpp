@@ -152,11 +152,12 @@ Result<std::vector<Claimant>> claimants_of(const GapsOptions& options, Simplex s
         }
     }
     if (!any)
-        return file_error(mesh, "no kernel for the cells of the mesh",
+        return file_error("kernel.unfit", mesh, "no kernel for the cells of the mesh",
                           "a kernel for a " + std::string(barycert::name(simplex)), "",
                           "`barycert kernels` lists them");
     if (!options.rules.empty() && wanted(ClaimRule::own) && !own)
-        return Error{.what = "no kernel has a rule of its own",
+        return Error{.code = "rule.unfit",
+                     .what = "no kernel has a rule of its own",
                      .expected = "one that classifies points or has a tolerance",
                      .remedy = "leave out the rule own, or name such a kernel"};
     return all;
@@ -181,7 +182,7 @@ Result<GapsReport> find_gaps(const GapsOptions& options, const Mesh& mesh, const
     GapsReport report;
     report.environment = measure_environment();
     if (const Status ok = check_environment(report.environment); !ok) return ok.error();
-    if (mesh.cell_count() == 0) return Error{.what = "the mesh has no cells", .file = name};
+    if (mesh.cell_count() == 0) return Error{.code = "mesh.empty", .what = "the mesh has no cells", .file = name};
     const Simplex simplex = mesh.dimension == 2 ? Simplex::triangle : Simplex::tetrahedron;
     const Result<std::vector<Claimant>> claimants = claimants_of(options, simplex, name);
     if (!claimants) return claimants.error();

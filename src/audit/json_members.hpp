@@ -41,7 +41,7 @@ inline std::string found_json(const nlohmann::json& j) {
 }
 
 [[noreturn]] inline void refuse(const std::string& where, const std::string& expected, const std::string& found) {
-    throw Exception({.what = where, .expected = expected, .found = found});
+    throw Exception({.code = "witness.member", .what = where, .expected = expected, .found = found});
 }
 
 inline const nlohmann::json& member(const nlohmann::json& object, const std::string& key, const std::string& where) {
@@ -105,7 +105,8 @@ auto made_of_json(const std::string& path, const JsonFile& file, Make make)
         return !too_deep;
     };
     const json all = json::parse(*text, watch, false);
-    if (too_deep || all.is_discarded()) return file_error(path, file.is_none, "JSON", "something else", file.remedy);
+    if (too_deep || all.is_discarded())
+        return file_error("file.syntax", path, file.is_none, "JSON", "something else", file.remedy);
     try {
         if (const json& schema = member(all, "schema", file.name); schema != witness_schema)
             refuse("unknown schema", std::to_string(witness_schema), found_json(schema));

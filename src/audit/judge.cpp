@@ -72,7 +72,8 @@ OracleAnswer Judge::decide(const Case& c, std::uint64_t index, OracleCounts& cou
 
 Error error_of(const Disagreement& d, const std::string& family, std::uint64_t seed) {
     const int n = vertex_count(d.c.simplex);
-    return {.what = "two oracles disagree, so nothing is said of any kernel: family " + family + ", case " +
+    return {.code = "audit.disagreement",
+            .what = "two oracles disagree, so nothing is said of any kernel: family " + family + ", case " +
                     std::to_string(d.index) + ", seed " + std::to_string(seed) + ", " + std::string(name(d.c.simplex)) +
                     (d.c.perspective ? " in perspective" : "") + ", vertices " +
                     first_of(d.c.vertices, n * d.c.stride()) + ", point " +

@@ -126,7 +126,7 @@ void fill_map(MeshMap& map, const PreparedMesh& m, const std::vector<Kernel>& ke
     const std::vector<Mesh::Index> owners = owners_in(locator, m, frame, threads);
     const std::set<Mesh::Index> seen(owners.begin(), owners.end());
     const std::vector<Mesh::Index> cells(seen.lower_bound(0), seen.end());
-    if (cells.empty()) throw Exception({.what = "no cell is large enough to be seen"});
+    if (cells.empty()) throw Exception({.code = "picture.empty", .what = "no cell is large enough to be seen"});
     static_cast<MeshFrame&>(map) = frame;
     map.low = {m.box[frame.shown[0]].low, m.box[frame.shown[1]].low};
     map.high = {m.box[frame.shown[0]].high, m.box[frame.shown[1]].high};

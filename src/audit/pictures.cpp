@@ -88,10 +88,12 @@ Case drift_case(int size, std::uint64_t seed, std::uint64_t index) {
 Result<DriftReport> measure_drift(const DriftOptions& options) {
     const ExactEnvironment environment;
     if (options.kernels.empty() || options.count == 0)
-        return Error{.what = "nothing to measure", .expected = "a kernel and at least one case"};
+        return Error{
+            .code = "argument.value", .what = "nothing to measure", .expected = "a kernel and at least one case"};
     for (const Kernel& k : options.kernels) {
         if (k.simplex != Simplex::triangle || k.perspective)
-            return Error{.what = "the kernel is not for triangles without perspective", .found = k.name};
+            return Error{
+                .code = "kernel.unfit", .what = "the kernel is not for triangles without perspective", .found = k.name};
     }
     DriftReport report{options.seed, options.count, {}};
     for (const Kernel& k : options.kernels) report.curves.push_back({k, {}});

@@ -167,6 +167,7 @@ Result<AuditReport> run_audit(const AuditOptions& options, const MeshSource& mes
     const std::vector<FamilyOnSimplex> parts = plan(options, meshes);
     if (parts.empty())
         return Error{
+            .code = "audit.nothing",
             .what = "nothing to audit: no family applies to a kernel",
             .remedy = "see `barycert kernels` and `barycert families`; mesh families of triangles need a 2D mesh"};
     report.oracle = options.oracle;

@@ -51,11 +51,12 @@ Result<Threshold> parse_threshold(std::string_view text) {
     const base::NamedLimit limit = base::named_limit(text);
     if (!figure_named(limit.name))
         return file_error(
-            {}, "unknown rule",
+            "rule.unknown", {}, "unknown rule",
             "NAME or NAME>NUMBER with NAME one of " + base::joined(threshold_names(), ", ", std::identity()),
             '"' + std::string(text) + '"', base::did_you_mean(limit.name, threshold_names()));
     if (!limit.most)
-        return file_error({}, "bad limit in a rule", "a number >= 0 after >", '"' + std::string(text) + '"');
+        return file_error("option.value", {}, "bad limit in a rule", "a number >= 0 after >",
+                          '"' + std::string(text) + '"');
     return Threshold{std::string(limit.name), *limit.most};
 }
 

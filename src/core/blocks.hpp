@@ -22,7 +22,7 @@ struct MeshCells {
 };
 
 inline Error size_error(const char* what, const std::string& expected, std::size_t found) {
-    return {.what = what, .expected = expected, .found = std::to_string(found)};
+    return {.code = "argument.size", .what = what, .expected = expected, .found = std::to_string(found)};
 }
 
 /// Sizes that must fit together do. Indices are not looked at: that would cost as much as the answers.
@@ -51,13 +51,17 @@ inline Status check_sizes(const MeshCells& cells, std::size_t places, std::size_
 
 inline Status check_components(int components) {
     if (components >= 1) return Done{};
-    return Error{.what = "number of components", .expected = "at least 1", .found = std::to_string(components)};
+    return Error{.code = "argument.value",
+                 .what = "number of components",
+                 .expected = "at least 1",
+                 .found = std::to_string(components)};
 }
 
 /// The simplex fills its space. `what` names what is asked for.
 inline Status check_fills_space(Simplex s, const std::string& what) {
     if (s == Simplex::triangle || s == Simplex::tetrahedron) return Done{};
-    return Error{.what = "unsupported simplex for " + what,
+    return Error{.code = "argument.value",
+                 .what = "unsupported simplex for " + what,
                  .expected = "triangle or tetrahedron",
                  .found = std::string(name(s))};
 }

@@ -48,7 +48,7 @@ Environment measure_environment() {
 }
 
 Status check_environment(const Environment& e) {
-    Error error{.what = "results could not be exact in this floating-point environment"};
+    Error error{.code = "environment.inexact", .what = "results could not be exact in this floating-point environment"};
     if (e.rounding != "nearest") {
         error.expected = "rounding to nearest";
         error.found = "rounding " + e.rounding;

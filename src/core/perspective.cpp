@@ -15,7 +15,8 @@ Status check_usable(const double* vertices, const double* point, const std::stri
         if (std::isfinite(x) && (!depth || x > 0)) continue;
         const std::string vertex = " of vertex " + std::to_string(i / 3);
         if (!depth) return base::not_finite("coordinate " + std::to_string(i % 3) + vertex, x);
-        return Error{.what = "depth w" + vertex,
+        return Error{.code = "argument.value",
+                     .what = "depth w" + vertex,
                      .expected = "a finite number above 0",
                      .found = std::to_string(x),
                      .remedy = "clip the triangle in clip space, before the division by w"};

@@ -181,12 +181,14 @@ Result<Sign> compare_value(Simplex simplex, const double* vertices, const double
                            double threshold) {
     if (!core::all_finite(simplex, vertices, point)) return core::not_finite_error(simplex, vertices, point);
     const core::ExactWeights w(simplex, vertices, point);
-    if (w.degenerate()) return Error{.what = "a degenerate simplex has no values"};
+    if (w.degenerate()) return Error{.code = "argument.value", .what = "a degenerate simplex has no values"};
     double numbers[4];
     const std::span nodal(numbers, static_cast<std::size_t>(vertex_count(simplex)));
     std::copy_n(values, nodal.size(), numbers);
     if (!std::isfinite(threshold) || !w.leave_out_not_finite(nodal))
-        return Error{.what = "a value cannot be compared", .expected = "finite nodal values and a finite threshold"};
+        return Error{.code = "argument.not-finite",
+                     .what = "a value cannot be compared",
+                     .expected = "finite nodal values and a finite threshold"};
     return static_cast<Sign>(w.compare(nodal, threshold));
 }
 

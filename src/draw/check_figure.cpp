@@ -12,7 +12,7 @@ namespace barycert::draw {
 namespace {
 
 Error refusal(const std::string& what, const std::string& expected, const std::string& found) {
-    return {.what = what, .expected = expected, .found = found};
+    return {.code = "argument.value", .what = what, .expected = expected, .found = found};
 }
 
 Status check_points(std::span<const double> points, std::size_t d, const char* of) {

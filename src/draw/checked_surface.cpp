@@ -23,7 +23,8 @@ namespace barycert {
 Result<Image> draw_checked(const CheckReport& report, const Surface& surface) {
     const ExactEnvironment environment;
     for (const DefectKind kind : {DefectKind::bad_structure, DefectKind::index_out_of_range, DefectKind::not_finite}) {
-        if (report.find(kind) != nullptr) return Error{.what = "a surface with such defects cannot be drawn"};
+        if (report.find(kind) != nullptr)
+            return Error{.code = "surface.defect", .what = "a surface with such defects cannot be drawn"};
     }
     const std::vector<DefectSet>& defects = report.measures.defects;
     std::vector<double> marks(surface.cell_count(), std::numeric_limits<double>::quiet_NaN());
@@ -52,7 +53,7 @@ Result<Image> draw_checked(const CheckReport& report, const Surface& surface) {
         }
         views[back ? 1 : 0] = std::move(*view);
     }
-    if (high <= low) return Error{.what = "there is nothing to draw"};
+    if (high <= low) return Error{.code = "picture.empty", .what = "there is nothing to draw"};
     Image both{2 * side, high - low,
                std::vector<std::uint8_t>(std::size_t{8} * side * static_cast<std::size_t>(high - low))};
     for (std::int32_t j = low; j < high; ++j) {

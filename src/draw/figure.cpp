@@ -17,7 +17,7 @@ Status write_rows(const std::string& path, const Figure& figure, FigureCounts& c
     if (!scale) return scale.error();
     const GridImage image(*figure.grid, *scale);
     if (std::max(image.width(), image.height()) > png::longest_png_side)
-        return file_error(path, "a grid of that aspect cannot be a picture",
+        return file_error("picture.too-large", path, "a grid of that aspect cannot be a picture",
                           fmt::format("at most {} pixels a side", png::longest_png_side),
                           fmt::format("{} by {}", image.width(), image.height()), "choose spacings that differ less");
     const auto row = [&](std::size_t r, std::uint8_t* pixels) { image.row(r, pixels); };
@@ -31,7 +31,10 @@ RasterSize size_of(const Picture& p, double scale) {
 
 Status write(const std::string& path, Figure figure, FigureCounts& counts) {
     if (!is_figure_name(path))
-        return Error{.what = "pictures have other names", .expected = ".png, .svg or .pdf", .found = path};
+        return Error{.code = "file.suffix",
+                     .what = "pictures have other names",
+                     .expected = ".png, .svg or .pdf",
+                     .found = path};
     if (Status good = check(figure); !good) return good;
     FigureOptions& o = figure.options;
     const bool pixels = base::has_suffix(path, ".png");

@@ -34,7 +34,7 @@ Result<ColourScale> scale_of(const Figure& figure, FigureCounts& counts) {
     ColourScale scale;
     const auto map = colour_map(o.colour_map);
     if (!map)
-        return file_error({}, "no such map of colours",
+        return file_error("option.value", {}, "no such map of colours",
                           fmt::format("{}, perhaps with _r", fmt::join(colour_map_names(), ", ")),
                           '"' + o.colour_map + '"');
     scale.map = *map;
@@ -63,11 +63,12 @@ Result<ColourScale> scale_of(const Figure& figure, FigureCounts& counts) {
             scale.labels.insert(at, x);
     });
     if (scale.labels.size() > most_labels)
-        return file_error({}, "too many labels", fmt::format("at most {} values that differ", most_labels), "more",
-                          "draw it without labels");
+        return file_error("picture.too-large", {}, "too many labels",
+                          fmt::format("at most {} values that differ", most_labels), "more", "draw it without labels");
     if (o.range) range = {o.range->first, o.range->second};
     if (o.log && !range.empty() && !(range.low > 0))
-        return file_error({}, "the range of logarithmic colours", "two numbers above 0", base::shortest(range.low));
+        return file_error("option.value", {}, "the range of logarithmic colours", "two numbers above 0",
+                          base::shortest(range.low));
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     // A zero may come with either sign: the bar says 0.
     scale.low = counts.low = range.empty() ? nan : range.low + 0.0;

@@ -205,7 +205,8 @@ Result<std::string> pdf_text(const Picture& picture, Rgba ground) {
     cairo_surface_finish(surface.get());
     const cairo_status_t status = drawn != CAIRO_STATUS_SUCCESS ? drawn : cairo_surface_status(surface.get());
     if (status != CAIRO_STATUS_SUCCESS)
-        return Error{.what = "cannot make the PDF file", .found = cairo_status_to_string(status)};
+        return Error{
+            .code = "picture.failed", .what = "cannot make the PDF file", .found = cairo_status_to_string(status)};
     // The same picture is the same file, whenever it is made; places of objects in the file stay.
     const std::size_t date = bytes.rfind("/CreationDate (");
     if (date != std::string::npos)
@@ -223,8 +224,8 @@ Result<Image> drawn(const Picture& picture, Rgba ground, double scale) {
     const double wide = std::round(scale * picture.width), tall = std::round(scale * picture.height);
     constexpr double most = 32767;
     if (!(wide <= most && tall <= most))
-        return file_error({}, "the picture is too large", fmt::format("at most {} pixels a side", most),
-                          fmt::format("{:.0f} by {:.0f}", wide, tall));
+        return file_error("picture.too-large", {}, "the picture is too large",
+                          fmt::format("at most {} pixels a side", most), fmt::format("{:.0f} by {:.0f}", wide, tall));
     Result<Image> image = blank_image(static_cast<std::int32_t>(wide), static_cast<std::int32_t>(tall), {});
     if (!image) return image;
     std::vector<std::uint32_t> pixels(image->data.size() / 4);
@@ -233,7 +234,8 @@ Result<Image> drawn(const Picture& picture, Rgba ground, double scale) {
                                             image->width, image->height, 4 * image->width));
     if (const cairo_status_t status = Painter(surface.get(), picture, ground, scale).status();
         status != CAIRO_STATUS_SUCCESS)
-        return Error{.what = "cannot draw the picture", .found = cairo_status_to_string(status)};
+        return Error{
+            .code = "picture.failed", .what = "cannot draw the picture", .found = cairo_status_to_string(status)};
     cairo_surface_flush(surface.get());
     std::size_t at = 0;
     for (std::int32_t j = image->height; j-- > 0;) {

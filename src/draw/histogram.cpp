@@ -60,7 +60,10 @@ Picture histogram(const Histogram& of) {
 
 Result<std::string> rows_text(std::string_view path, const std::vector<Picture>& all, const std::string& title) {
     if (all.empty())
-        return Error{.what = "there is nothing to plot", .found = "no value", .remedy = "leave the plot out"};
+        return Error{.code = "picture.empty",
+                     .what = "there is nothing to plot",
+                     .found = "no value",
+                     .remedy = "leave the plot out"};
     constexpr double head = 48, left = 12;
     double wide = 0, tall = 0;
     for (const Picture& p : all) wide = std::max(wide, p.width), tall = std::max(tall, p.height);

@@ -45,10 +45,10 @@ public:
         std::optional<GridImage> grid;
         if (f_.grid) grid.emplace(*f_.grid, *scale);
         if (grid && std::max(grid->width(), grid->height()) > static_cast<std::size_t>(max_raster_side))
-            return file_error({}, "a grid of that size cannot be a picture on axes or beside a bar",
-                              fmt::format("at most {} pixels a side", max_raster_side),
-                              fmt::format("{} by {}", grid->width(), grid->height()),
-                              "draw it without axes, bar and title");
+            return file_error(
+                "picture.too-large", {}, "a grid of that size cannot be a picture on axes or beside a bar",
+                fmt::format("at most {} pixels a side", max_raster_side),
+                fmt::format("{} by {}", grid->width(), grid->height()), "draw it without axes, bar and title");
         least_tall_ = with_bar ? bar.least_height() : 0;
         if (grid) window_of({grid->width(), grid->height()}, left + right, top + bottom);
         if (const auto given = given_window(); !grid && given)
@@ -57,7 +57,7 @@ public:
         double wide = picture_.width - left - right, tall = picture_.height - top - bottom;
         constexpr double least = 16;
         if (!window_ && (wide < least || tall < std::max(least, least_tall_)))
-            return file_error({}, "there is no room beside bar and axes",
+            return file_error("picture.too-large", {}, "there is no room beside bar and axes",
                               fmt::format("more than {:.0f} by {:.0f} pixels", left + right + least,
                                           top + bottom + std::max(least, least_tall_)),
                               fmt::format("{} by {}", o_.size.width, o_.size.height), "choose a larger size");
@@ -79,7 +79,8 @@ public:
             const RasterSize window{std::max(1, pixels(wide)), std::max(1, pixels(tall))};
             if (Status good = check_raster_size(window); !good) return good.error();
             if (std::int64_t{window.width} * window.height > max_image_pixels)
-                return file_error({}, "the picture is too large", fmt::format("at most {} pixels", max_image_pixels),
+                return file_error("picture.too-large", {}, "the picture is too large",
+                                  fmt::format("at most {} pixels", max_image_pixels),
                                   fmt::format("{} by {}", window.width, window.height), "choose a smaller size");
             const bool box = f_.dimension == 3 && o_.axes == Axes::box && add_box();
             const View view(f_, window, part_of(f_));

@@ -36,11 +36,13 @@ Error read_failure(const std::string& path, int error_number) {
     if (error_number == EACCES) remedy = "ask for permission to read it";
     if (error_number == ENOMEM) remedy = "free some memory, or use a machine with more";
     if (error_number == EISDIR) remedy = "name a file inside the folder";
-    return file_error(path, cannot_read, {}, std::strerror(error_number), remedy);
+    return file_error(error_number == ENOENT ? ErrorCode("file.missing") : ErrorCode("file.unreadable"), path,
+                      cannot_read, {}, std::strerror(error_number), remedy);
 }
 
 Error unended_number(std::string path, std::size_t line) {
-    return {"the last row has no line end, so the file may be cut short",
+    return {"file.truncated",
+            "the last row has no line end, so the file may be cut short",
             std::move(path),
             line,
             "a line end",
@@ -49,7 +51,7 @@ Error unended_number(std::string path, std::size_t line) {
 }
 
 Error too_little_memory(std::string path) {
-    return file_error(std::move(path), "too little memory to read the file", {}, {},
+    return file_error("memory.short", std::move(path), "too little memory to read the file", {}, {},
                       "free some memory, or check whether the file is damaged");
 }
 
@@ -62,9 +64,10 @@ Result<InputFile> InputFile::open(const std::string& path, const char* remedy, T
     const char* const expected = pipe != nullptr ? "a regular file or a pipe" : "a regular file";
     const bool is_pipe = pipe != nullptr && S_ISFIFO(status.st_mode);
     if (S_ISDIR(status.st_mode))
-        return file_error(path, cannot_read, expected, "a folder", "name a file inside the folder");
+        return file_error("file.unreadable", path, cannot_read, expected, "a folder", "name a file inside the folder");
     if (!is_pipe && !S_ISREG(status.st_mode))
-        return file_error(path, cannot_read, expected, pipe != nullptr ? "a device" : "a pipe or device", remedy);
+        return file_error("file.pipe", path, cannot_read, expected, pipe != nullptr ? "a device" : "a pipe or device",
+                          remedy);
     // From now on a pipe waits for those who have it open, and has ended if nobody has.
     if (is_pipe && ::fcntl(file.file_.number, F_SETFL, 0) != 0) return read_failure(path, errno);
     if (Status plain = unpack(file.file_.number, path, text); !plain) return plain.error();
@@ -97,7 +100,7 @@ Status unchanged(int descriptor, const FileState& then, const std::string& path)
     const auto size = static_cast<std::uint64_t>(now.st_size);
     const bool same = size == then.size;
     if (same && now.st_mtim.tv_sec == then.written.tv_sec && now.st_mtim.tv_nsec == then.written.tv_nsec) return Done{};
-    return file_error(path, "the file was changed while it was read",
+    return file_error("file.changed", path, "the file was changed while it was read",
                       same ? "" : std::to_string(then.size) + " bytes, as when it was opened",
                       same ? "" : std::to_string(size), "read it again when its writer has finished");
 }
@@ -140,7 +143,7 @@ Status check_beginning(std::string_view block, Text text, const std::string& pat
     } else {
         return Done{};
     }
-    return file_error(path, "the file does not begin as text", "words", std::move(found),
+    return file_error("file.format", path, "the file does not begin as text", "words", std::move(found),
                       "check the path, or write the file again");
 }
 
@@ -171,11 +174,11 @@ Result<std::string> read_file(const std::string& path, std::size_t longest, Text
         if (got == 0) break;
         have += static_cast<std::size_t>(got);
         if (pipe && have > longest)
-            return file_error(path, cannot_read, "at most " + std::to_string(longest) + " bytes from a pipe", "more",
-                              save_first);
+            return file_error("file.too-large", path, cannot_read,
+                              "at most " + std::to_string(longest) + " bytes from a pipe", "more", save_first);
     }
     if (pipe && have == 0)
-        return file_error(path, cannot_read, "data", "nothing: a pipe that nobody writes to",
+        return file_error("file.empty", path, cannot_read, "data", "nothing: a pipe that nobody writes to",
                           "start its writer first, or name a regular file");
     bytes.resize(have);
     return bytes;

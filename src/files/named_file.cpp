@@ -26,13 +26,14 @@ bool can_be_overwritten(const std::string& path) {
 Status check_writable(const std::string& path) {
     if (path == "-") {
         if (fcntl(STDOUT_FILENO, F_GETFD) >= 0) return Done{};
-        return Error{.what = "cannot write to stdout", .found = std::strerror(errno)};
+        return Error{.code = "file.unwritable", .what = "cannot write to stdout", .found = std::strerror(errno)};
     }
     // A pipe would see its writer come and go: only ask of it whether it may be written.
     struct stat status {};
     if (stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode)) {
         if (access(path.c_str(), W_OK) == 0) return Done{};
-        return Error{.what = "cannot write the file", .file = path, .found = std::strerror(errno)};
+        return Error{
+            .code = "file.unwritable", .what = "cannot write the file", .file = path, .found = std::strerror(errno)};
     }
     return OutputFile(path).close();
 }
@@ -60,22 +61,23 @@ Status check_distinct(const std::vector<NamedFile>& inputs, const std::vector<Na
         const std::string path = out.path == "-" ? "/dev/stdout" : out.path;
         for (const NamedFile& in : inputs) {
             if (!can_be_overwritten(path) || !same_file(path, in.path == "-" ? "/dev/stdin" : in.path)) continue;
-            return file_error(out.path, out.what + " would overwrite " + in.what, {}, {},
-                              "choose another name for the output");
+            return about(out.what, file_error("file.overwrite", out.path, out.what + " would overwrite " + in.what, {},
+                                              {}, "choose another name for the output"));
         }
         for (std::size_t k = 0; k < i; ++k) {
             if (!same_file(out.path, outputs[k].path)) continue;
-            return file_error(out.path, outputs[k].what + " and " + out.what + " name the same output", {}, {},
-                              "choose two different names");
+            return about(out.what, file_error("file.overwrite", out.path,
+                                              outputs[k].what + " and " + out.what + " name the same output", {}, {},
+                                              "choose two different names"));
         }
     }
     return Done{};
 }
 
-std::vector<NamedFile> named_files(const std::string& what, std::vector<std::string> paths) {
+std::vector<NamedFile> named_files(const std::string& what, std::vector<std::string> paths, bool of_mesh) {
     std::vector<NamedFile> files;
     files.reserve(paths.size());
-    for (std::string& path : paths) files.push_back({what, std::move(path)});
+    for (std::string& path : paths) files.push_back({what, std::move(path), of_mesh});
     return files;
 }
 
@@ -85,11 +87,14 @@ Status check_outputs(const std::vector<NamedFile>& inputs, std::vector<NamedFile
     for (const NamedFile& out : outputs) {
         for (const std::string_view place : {step_place, time_place}) {
             if (out.path.find(place) == std::string::npos) continue;
-            return file_error(out.path, out.what + " has a place for a step, and there are no steps to fill it",
-                              "a name without " + std::string(place), {},
-                              "files of steps are job.output of sample and resample, of a series as mesh or field: a "
-                              ".pvd or .vtu.series file, or job.field_files NAME@'step-*.npy'; elsewhere choose one "
-                              "step by job.step or job.time");
+            return about(
+                out.what,
+                file_error("series.place", out.path,
+                           out.what + " has a place for a step, and there are no steps to fill it",
+                           "a name without " + std::string(place), {},
+                           "files of steps are job.output of sample and resample, of a series as mesh or field: a "
+                           ".pvd or .vtu.series file, or job.field_files NAME@'step-*.npy'; elsewhere choose one "
+                           "step by job.step or job.time"));
         }
         if (Status ok = check_writable(out.path); !ok) return ok;
     }
@@ -100,10 +105,11 @@ Status check_inputs(const std::vector<NamedFile>& inputs) {
     for (const NamedFile& in : inputs) {
         if (in.path == "-") {
             if (fcntl(STDIN_FILENO, F_GETFD) < 0)
-                return Error{.what = "cannot read the standard input", .found = std::strerror(errno)};
+                return Error{
+                    .code = "file.unreadable", .what = "cannot read the standard input", .found = std::strerror(errno)};
         } else if (access(in.path.c_str(), R_OK) != 0) {
             if (errno == ENOENT) return read_failure(in.path, errno);
-            return file_error(in.path, "cannot read the file", {}, std::strerror(errno),
+            return file_error("file.unreadable", in.path, "cannot read the file", {}, std::strerror(errno),
                               "check the name and the permissions");
         }
     }

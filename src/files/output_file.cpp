@@ -100,8 +100,8 @@ std::string resolved_path(std::string path) {
 
 OutputFile::OutputFile(std::string target) : target_(std::move(target)), real_path_(resolved_path(target_)) {
     if (target_.ends_with(".gz")) {
-        error_ = file_error(target_, "files are not packed when they are written", "a name without .gz", {},
-                            "leave .gz out, then pack the file with gzip");
+        error_ = file_error("file.suffix", target_, "files are not packed when they are written", "a name without .gz",
+                            {}, "leave .gz out, then pack the file with gzip");
         return;
     }
     struct stat status {};
@@ -111,7 +111,7 @@ OutputFile::OutputFile(std::string target) : target_(std::move(target)), real_pa
     refuse_input();
     // A rename would replace even a file that is write-protected.
     if (exists && ::access(real_path_.c_str(), W_OK) != 0) fail(cannot_write_it, errno);
-    if (!error_.what.empty()) return;
+    if (error_) return;
     if (exists && !S_ISREG(status.st_mode)) {
         file_ = Descriptor(::open(real_path_.c_str(), O_WRONLY | O_CLOEXEC));
         if (!file_) fail("cannot open the file for writing", errno);
@@ -184,7 +184,7 @@ void OutputFile::flush() {
 }
 
 void OutputFile::put(std::string_view bytes, std::optional<std::size_t> offset) {
-    if (error_.what.empty() && !file_.write(bytes, offset)) fail(cannot_write_it, errno);
+    if (!error_ && !file_.write(bytes, offset)) fail(cannot_write_it, errno);
 }
 
 Status OutputFile::close() {
@@ -195,7 +195,7 @@ Status OutputFile::close() {
 }
 
 Status OutputFile::status() const {
-    return error_.what.empty() ? Status(Done{}) : error_;
+    return error_ ? Status(*error_) : Done{};
 }
 
 /// True if the target itself is the name, so that nothing is left to rename.
@@ -218,8 +218,8 @@ bool OutputFile::give_name() {
 
 void OutputFile::refuse_input() {
     const std::string* const input = input_of_run(real_path_);
-    if (input == nullptr || !error_.what.empty()) return;
-    error_ = file_error(target_, "the output would overwrite a file that is read", {}, *input,
+    if (input == nullptr || error_) return;
+    error_ = file_error("file.overwrite", target_, "the output would overwrite a file that is read", {}, *input,
                         "choose another name for the output");
 }
 
@@ -230,7 +230,7 @@ Status OutputFile::commit() {
         const bool in_place = give_name();
         nameless_ = false;
         if (!file_.close()) fail(cannot_write_it, errno);
-        if (in_place || !error_.what.empty()) return status();
+        if (in_place || error_) return status();
     }
     if (begun_ == nullptr) return Done{};
     if (std::rename(begun_->path.c_str(), real_path_.c_str()) != 0) {
@@ -242,8 +242,9 @@ Status OutputFile::commit() {
 }
 
 void OutputFile::fail(const char* what, int error_number) {
-    if (error_.what.empty())
-        error_ = file_error(target_, what, {}, std::strerror(error_number), remedy_for(error_number));
+    if (!error_)
+        error_ =
+            file_error("file.unwritable", target_, what, {}, std::strerror(error_number), remedy_for(error_number));
 }
 
 void remove_begun_files() noexcept {

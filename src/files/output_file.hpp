@@ -75,8 +75,8 @@ private:
     BegunName* begun_ = nullptr;  // the name of the unfinished file, while it has one
     std::string buffer_;
     Descriptor file_;
-    bool nameless_ = false;  // the unfinished file has no name, and lives while its descriptor is open
-    Error error_;
+    bool nameless_ = false;       // the unfinished file has no name, and lives while its descriptor is open
+    std::optional<Error> error_;  // the first one
 };
 
 }  // namespace barycert::base

@@ -24,7 +24,7 @@ Descriptor nameless_file(const std::string& folder) {
 }  // namespace
 
 Error Spool::failure(const char* what, int error_number) const {
-    return file_error(target_, what, {}, std::strerror(error_number),
+    return file_error("file.unwritable", target_, what, {}, std::strerror(error_number),
                       "free some space there, or in the folder for temporary files (TMPDIR)");
 }
 

@@ -57,7 +57,7 @@ std::optional<std::string> unpacked_head(int descriptor, std::size_t size) {
     // Deflated bytes are never much longer than what they stand for.
     std::string packed(size + size / 4 + 4096, '\0'), head(size, '\0');
     const Result<std::size_t> there =
-        is_packed(descriptor, status) ? read_at(descriptor, 0, packed, "") : Result<std::size_t>(Error{});
+        is_packed(descriptor, status) ? read_at(descriptor, 0, packed, "") : std::size_t{0};
     constexpr int gzip = 16, largest_window = 15;
     if (!there || ::inflateInit2(&stream, largest_window + gzip) != Z_OK) return std::nullopt;
     stream.next_in = reinterpret_cast<Bytef*>(packed.data());
@@ -72,8 +72,8 @@ std::optional<std::string> unpacked_head(int descriptor, std::size_t size) {
 
 Status unpack(int& descriptor, const std::string& path, Text text) {
     if (is_lfs_pointer(descriptor))
-        return file_error(path, "this is a pointer of Git LFS, and not the file that it stands for", {}, {},
-                          "fetch the file with `git lfs pull`");
+        return file_error("file.format", path, "this is a pointer of Git LFS, and not the file that it stands for", {},
+                          {}, "fetch the file with `git lfs pull`");
     struct stat status {};
     if (!is_packed(descriptor, status)) return Done{};
     if (text != Text::none) {
@@ -101,9 +101,10 @@ Status unpack(int& descriptor, const std::string& path, Text text) {
         return Done{};
     }
     if (result == LIBDEFLATE_INSUFFICIENT_SPACE)
-        return file_error(path, "the file is packed by gzip, and takes too much memory once it is unpacked",
+        return file_error("file.too-large", path,
+                          "the file is packed by gzip, and takes too much memory once it is unpacked",
                           "at most " + std::to_string(most) + " bytes", "more", "unpack it before, if you trust it");
-    return file_error(path, "the file is packed by gzip, and cannot be unpacked",
+    return file_error("file.packed", path, "the file is packed by gzip, and cannot be unpacked",
                       "whole members, each with its checksum", "others", "copy it again, or pack it again");
 }
 

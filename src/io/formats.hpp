@@ -36,13 +36,14 @@ using base::suffix_of;
 using base::whole_number;
 using base::without_gz;
 
-[[noreturn]] inline void refuse_line(std::string file, std::size_t line, std::string what, std::string expected = {},
-                                     std::string found = {}, std::string remedy = {}) {
-    throw Exception({std::move(what), std::move(file), line, std::move(expected), std::move(found), std::move(remedy)});
+[[noreturn]] inline void refuse_line(ErrorCode code, std::string file, std::size_t line, std::string what,
+                                     std::string expected = {}, std::string found = {}, std::string remedy = {}) {
+    throw Exception(
+        {code, std::move(what), std::move(file), line, std::move(expected), std::move(found), std::move(remedy)});
 }
-[[noreturn]] inline void refuse_file(std::string file, std::string what, std::string expected = {},
+[[noreturn]] inline void refuse_file(ErrorCode code, std::string file, std::string what, std::string expected = {},
                                      std::string found = {}, std::string remedy = {}) {
-    refuse_line(std::move(file), 0, std::move(what), std::move(expected), std::move(found), std::move(remedy));
+    refuse_line(code, std::move(file), 0, std::move(what), std::move(expected), std::move(found), std::move(remedy));
 }
 
 /// read() in the environment of exact results. Error: what it throws as an Exception; memory is short.
@@ -149,6 +150,7 @@ struct OtherFormat {
     const char* what;              ///< "a mesh of Medit"
     std::string_view remedy;       ///< how to get at the mesh, with {words} that the path fills
     const char* meshio = nullptr;  ///< its name there, if it is read by way of meshio: io/converted
+    bool is_mesh = true;           ///< false: `what` says so, as "a table, not a mesh"
 };
 
 /// By the end of the path; nullptr if it is none of these.

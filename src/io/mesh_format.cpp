@@ -19,8 +19,8 @@ bool is_read_once(const std::string& path) {
 
 Error unknown_suffix(const std::string& path, std::string what, std::string expected, std::string remedy) {
     const std::string suffix = suffix_of(path);
-    return file_error(path, std::move(what), std::move(expected), suffix.empty() ? "no suffix" : '"' + suffix + '"',
-                      std::move(remedy));
+    return file_error("file.suffix", path, std::move(what), std::move(expected),
+                      suffix.empty() ? "no suffix" : '"' + suffix + '"', std::move(remedy));
 }
 
 Result<FileFormat> format_of(const std::string& path) {
@@ -78,7 +78,7 @@ std::optional<MeshFormat> format_by_content(std::string_view head) {
 }
 
 Error missing(const std::string& path) {
-    Error error{.what = "no such file", .file = path};
+    Error error{.code = "file.missing", .what = "no such file", .file = path};
     for (const char* suffix : {".msh", ".vtu", ".vtk", ".pvtu", ".mesh", ".meshb"}) {
         if (!exists(path + suffix)) continue;
         error.remedy = "there is " + path + suffix + ": name it with its suffix";
@@ -121,7 +121,7 @@ Result<MeshFormat> format_of_file(const std::string& path) {
     if (found->format) return *found->format;
     if (found->other != nullptr && found->other->meshio != nullptr) return MeshFormat::by_meshio;
     if (found->other != nullptr) return other_format_error(*found->other, path);
-    return file_error(path, "barycert does not read this format", formats_read, {},
+    return file_error("file.format", path, "barycert does not read this format", formats_read, {},
                       "TetGen's files have to be named STEM.node and STEM.ele; save others as .vtu or Gmsh's .msh in "
                       "the program that they are of");
 }
@@ -137,13 +137,14 @@ Result<MeshFormat> mesh_format(const std::string& path) {
     std::error_code code;
     const fs::file_status status = fs::status(path, code);
     if (code == std::errc::permission_denied)
-        return file_error(path, "cannot read the file", {}, "permission denied", "check the permissions of its folder");
+        return file_error("file.unreadable", path, "cannot read the file", {}, "permission denied",
+                          "check the permissions of its folder");
     const bool stem = !is_tetgen_file(path) && exists(plain_or_packed(path + ".node"));
     if (stem && (!format_by_suffix(path) || !fs::exists(status))) return MeshFormat::tetgen;
     if (fs::is_directory(status) && exists(path + "/constant/polyMesh"))
         return other_format_error(*other_format_by_suffix("case.foam"), path);
     if (fs::is_directory(status))
-        return file_error(path, "this is a folder", formats_read, {},
+        return file_error("file.unreadable", path, "this is a folder", formats_read, {},
                           "name the file of the mesh in it, or the stem of TetGen's files");
     if (fs::exists(status)) return format_of_file(path);
     // One of TetGen's files may be missing where others are there: their reader knows which.
@@ -178,7 +179,7 @@ void cut_into_simplices(Mesh& mesh, const std::string& path) {
     if (mesh.shapes.types.empty()) return;
     std::size_t otherwise = 0;
     if (const auto open = mesh::cut_into_simplices(mesh, {}, &otherwise))
-        refuse_file(path,
+        refuse_file("mesh.faces", path,
                     "the faces of cell " + std::to_string(mesh.cell_number(mesh.shapes.parts[*open])) +
                         " (from 0) do not close",
                     "each edge in two faces of the polyhedron", {}, "write the file again with all faces");

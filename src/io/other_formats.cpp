@@ -2,6 +2,7 @@
 
 #include <cctype>
 #include <filesystem>
+#include <initializer_list>
 
 #include "io/formats.hpp"
 #include "io/number_word.hpp"
@@ -35,10 +36,11 @@ constexpr std::array formats{
     OtherFormat{" .cas ", "a case of Fluent", "{paraview}"},
     OtherFormat{" .off .stl .ply .obj ", "a surface, not a mesh",
                 "check and sample take surfaces; slices, pictures and all else take meshes: if it is closed, fill it "
-                "with `barycert mesh {in}`"},
-    OtherFormat{" .poly .smesh ", "a PLC, not a mesh", "mesh it first with `barycert mesh {in}`"},
+                "with `barycert mesh {in}`",
+                nullptr, false},
+    OtherFormat{" .poly .smesh ", "a PLC, not a mesh", "mesh it first with `barycert mesh {in}`", nullptr, false},
     OtherFormat{" .geo .geo_unrolled .brep .step .stp .iges .igs ", "a geometry, not a mesh",
-                "mesh it with `gmsh -3 {in} -format msh41 -o {msh}` (-2 for triangles)"},
+                "mesh it with `gmsh -3 {in} -format msh41 -o {msh}` (-2 for triangles)", nullptr, false},
     OtherFormat{" .vtkhdf ", "a VTKHDF file", "{paraview}; ParaView 5.11 reads version 1 of the format alone"},
     OtherFormat{" .h5 .hdf5 .hdf ", "an HDF5 file", "if it belongs to an .xdmf file, name that"},
     OtherFormat{" .nc ", "a NetCDF file", "", "exodus"},
@@ -49,7 +51,7 @@ constexpr std::array formats{
     OtherFormat{" .zip ", "a ZIP archive", "unpack it with `unzip {in}`"},
     OtherFormat{" .tar ", "a TAR archive", "unpack it with `tar -xf {in}`"},
     OtherFormat{" .csv .npy .npz .txt ", "a table, not a mesh",
-                "name the mesh first; points go with --points, values with --field NAME=FILE"},
+                "name the mesh first; points go with --points, values with --field NAME=FILE", nullptr, false},
 };
 
 const OtherFormat* by_suffix(std::string_view suffix) {
@@ -63,7 +65,7 @@ constexpr OtherFormat freefem{"", "a mesh of FreeFem",
                               "make it a file of Medit with {freefem}; a mesh in space with mesh3 and readmesh3"};
 
 constexpr OtherFormat flat_poly{"", "a PLC in the plane, not a mesh",
-                                "mesh it with Triangle, whose .node and .ele are read"};
+                                "mesh it with Triangle, whose .node and .ele are read", nullptr, false};
 
 /// A count and the dimension 2.
 bool is_flat_poly(std::string_view head) {
@@ -111,11 +113,14 @@ bool is_ucd(std::string_view head) {
     return are(next_line_of(head, "#"), 5, 0) && are(next_line_of(head, "#"), 1, 3);
 }
 
-/// HDF5, NetCDF and ZIP hold many formats: which, is told by the suffix, if that is one of these.
-const OtherFormat* container(std::string_view path, std::string_view suffixes, std::string_view otherwise) {
+/// HDF5, NetCDF and ZIP hold many formats: which, is told by the suffix, if it is that of one of these, each with one
+/// of its suffixes.
+const OtherFormat* container(std::string_view path, std::initializer_list<std::string_view> held,
+                             std::string_view otherwise) {
     const OtherFormat* const format = other_format_by_suffix(path);
-    if (format != nullptr && suffixes.find(std::string(" ") + format->what) != std::string_view::npos) return format;
-    return by_suffix(otherwise);
+    const bool is_held =
+        std::ranges::any_of(held, [&](std::string_view suffix) { return by_suffix(suffix) == format; });
+    return is_held ? format : by_suffix(otherwise);
 }
 
 using base::shell_word;
@@ -180,12 +185,10 @@ const OtherFormat* packed_format(std::string_view head) {
 
 const OtherFormat* other_format_by_content(std::string_view head, std::string_view path, bool strict) {
     if (const OtherFormat* packed = packed_format(head); packed != nullptr) return packed;
-    constexpr std::string_view in_hdf5 =
-        " a MED file of Salome or Code_Aster; a CGNS file; an Exodus file; a VTKHDF file; a mesh of MOAB; an HMF file; "
-        "a case of Fluent;";
-    if (head.starts_with("\x89HDF\r\n\x1a\n")) return container(path, in_hdf5, ".h5");
+    if (head.starts_with("\x89HDF\r\n\x1a\n"))
+        return container(path, {".med", ".cgns", ".exo", ".vtkhdf", ".h5m", ".hmf", ".cas"}, ".h5");
     if (head.starts_with("CDF\x01") || head.starts_with("CDF\x02") || head.starts_with("CDF\x05"))
-        return container(path, " an Exodus file;", ".nc");
+        return container(path, {".exo"}, ".nc");
     const std::string_view text = head.starts_with("\xEF\xBB\xBF") ? head.substr(3) : head;
     if (text.find("<Xdmf") != std::string_view::npos) return by_suffix(".xdmf");
     if (text.find("<dolfin") != std::string_view::npos) return by_suffix(".xml");
@@ -252,9 +255,9 @@ Error other_format_error(const OtherFormat& format, const std::string& path) {
         fmt::format(fmt::runtime(format.remedy), fmt::arg("in", shell_word(path)), fmt::arg("gmsh", gmsh_command(path)),
                     fmt::arg("msh", shell_word(stem_of(path) + ".msh")), fmt::arg("freefem", freefem_command(path)),
                     fmt::arg("unpacked", shell_word(unpacked_name(path))), fmt::arg("paraview", by_paraview(path)));
-    const bool mesh = std::string_view(format.what).find("not a mesh") == std::string_view::npos;
-    return file_error(path, std::string("this is ") + format.what + (mesh ? ", which is not read" : ""), formats_read,
-                      {}, std::move(remedy));
+    return file_error("file.format", path,
+                      std::string("this is ") + format.what + (format.is_mesh ? ", which is not read" : ""),
+                      formats_read, {}, std::move(remedy));
 }
 
 }  // namespace barycert::io

@@ -23,28 +23,33 @@ std::string example(const TableColumns& all, int dimension, std::size_t first) {
     return text;
 }
 
+/// Throws an error of the columns, whose texts may name members of options.
 template <class... Parts>
-[[noreturn]] void refuse(const TableColumns& all, Parts&&... parts) {
-    refuse_line(all.file, all.line, std::forward<Parts>(parts)...);
+[[noreturn]] void refuse(ErrorCode code, const TableColumns& all, Parts&&... parts) {
+    Error error = file_error(code, all.file, std::forward<Parts>(parts)...);
+    error.line = all.line;
+    throw Exception(about("options.columns", std::move(error)));
 }
 
 /// The column of exactly that name; names.size() if there is none.
 std::size_t column_named(const TableColumns& all, std::string_view name) {
     const auto at = std::find(all.names.begin(), all.names.end(), name);
     if (at != all.names.end() && std::find(at + 1, all.names.end(), name) != all.names.end())
-        refuse(all, "two columns have the same name", "one column " + base::quoted(name), "two", "rename one of them");
+        refuse("column.duplicate", all, "two columns have the same name", "one column " + base::quoted(name), "two",
+               "rename one of them");
     return static_cast<std::size_t>(at - all.names.begin());
 }
 
 [[noreturn]] void no_such_column(const TableColumns& all, const std::string& name, const std::string& remedy) {
-    refuse(all, "no such column", base::quoted(name), listed(all.names), base::did_you_mean(name, all.names, remedy));
+    refuse("column.unknown", all, "no such column", base::quoted(name), listed(all.names),
+           base::did_you_mean(name, all.names, remedy));
 }
 
 std::vector<std::size_t> axes_asked_for(const TableColumns& all, int dimension, const PointOptions& options) {
     const auto count = static_cast<std::size_t>(dimension);
     const std::vector<std::string> names = parts_of(options.columns, count);
     if (names.size() != count)
-        refuse(all, "options.columns does not fit the mesh",
+        refuse("column.unclear", all, "options.columns does not fit the mesh",
                std::to_string(count) + " columns, for the mesh is " + std::to_string(count) + "-dimensional",
                std::to_string(names.size()), "name a column for each axis, in their order");
     const bool places = are_places(names);
@@ -54,8 +59,8 @@ std::vector<std::size_t> axes_asked_for(const TableColumns& all, int dimension, 
         if (column >= all.names.size())
             no_such_column(all, name, "name columns that are there, or say their places, from 1");
         if (std::find(axes.begin(), axes.end(), column) != axes.end())
-            refuse(all, "a column is named twice in options.columns", "a column for each axis", base::quoted(name),
-                   "name a column for each axis, in their order");
+            refuse("column.duplicate", all, "a column is named twice in options.columns", "a column for each axis",
+                   base::quoted(name), "name a column for each axis, in their order");
         axes.push_back(column);
     }
     return axes;
@@ -65,7 +70,7 @@ std::vector<std::size_t> axes_asked_for(const TableColumns& all, int dimension, 
     const auto count = static_cast<std::size_t>(dimension);
     const std::string d = std::to_string(dimension);
     if (all.named)
-        refuse(all, "the header does not name the coordinates",
+        refuse("column.unclear", all, "the header does not name the coordinates",
                dimension == 2 ? "columns x, y (or Points:0, Points:1)"
                               : "columns x, y, z (or Points:0, Points:1, Points:2)",
                listed(all.names),
@@ -74,9 +79,10 @@ std::vector<std::size_t> axes_asked_for(const TableColumns& all, int dimension, 
                    : "use these column names, or start the file with numbers");
     const std::string found = std::to_string(all.names.size()) + " columns without names";
     if (all.names.size() < count)
-        refuse(all, "too few columns for a point", d + ", for the mesh is " + d + "-dimensional", found,
-               "write one point a line, with a coordinate for each axis");
-    refuse(all, "it is not clear which columns are the coordinates", d + " columns, or names for them", found,
+        refuse("point.dimension", all, "too few columns for a point", d + ", for the mesh is " + d + "-dimensional",
+               found, "write one point a line, with a coordinate for each axis");
+    refuse("column.unclear", all, "it is not clear which columns are the coordinates",
+           d + " columns, or names for them", found,
            "say which: " + example(all, dimension, 0) + ", or " + example(all, dimension, all.names.size() - count) +
                ", ..., or put a header line x,y" + (dimension == 3 ? ",z" : "") + ",... first");
 }
@@ -92,7 +98,7 @@ bool keep_one(const TableColumns& all, const std::string& text, PointColumns& ou
     }
     if (column == all.names.size()) return false;
     if (out.is_coordinate(column))
-        refuse(all, "a column to keep is a coordinate", "another column", base::quoted(text),
+        refuse("column.duplicate", all, "a column to keep is a coordinate", "another column", base::quoted(text),
                "leave it out of options.keep: rows begin with the coordinates");
     out.kept.push_back({column, std::move(name)});
     return true;
@@ -116,11 +122,11 @@ void keep_columns(const TableColumns& all, const std::vector<std::string>& keep,
     std::set<std::size_t> columns;
     for (const PointColumns::Kept& kept : out.kept) {
         if (!columns.insert(kept.column).second)
-            refuse(all, "a column to keep is named twice", "each once", base::quoted(all.names[kept.column]),
-                   "name it once in options.keep");
+            refuse("column.duplicate", all, "a column to keep is named twice", "each once",
+                   base::quoted(all.names[kept.column]), "name it once in options.keep");
         if (!names.insert(kept.name).second)
-            refuse(all, "two columns to keep have the same name", "different names", base::quoted(kept.name),
-                   "name each once; options.keep NEW=NAME gives a column another name");
+            refuse("column.duplicate", all, "two columns to keep have the same name", "different names",
+                   base::quoted(kept.name), "name each once; options.keep NEW=NAME gives a column another name");
     }
 }
 
@@ -144,7 +150,7 @@ void note_the_others(const TableColumns& all, PointColumns& out) {
         names = "all";
     }
     text += "; options.keep " + names + (others.size() == 1 ? " carries it through" : " carries them through");
-    out.notes.push_back({Note::Kind::left_out, std::move(text), all.file});
+    out.notes.push_back({Note::Kind::left_out, std::move(text), all.file, false, "options.keep"});
 }
 
 }  // namespace
@@ -173,7 +179,8 @@ std::optional<PointColumns> find_coordinates(const TableColumns& all, int dimens
             for (std::size_t i = 0; i < all.names.size(); ++i) {
                 if (lower(all.names[i]) != names[axis]) continue;
                 if (at[axis])
-                    refuse(all, "two columns have the same name", "one column " + std::string(names[axis]),
+                    refuse("column.duplicate", all, "two columns have the same name",
+                           "one column " + std::string(names[axis]),
                            base::quoted(all.names[*at[axis]]) + " and " + base::quoted(all.names[i]),
                            "rename the column that is not a coordinate, or say which by options.columns");
                 at[axis] = i;
@@ -197,7 +204,7 @@ PointColumns choose_columns(const TableColumns& all, int dimension, const PointO
         out.axes = axes_asked_for(all, dimension, options);
     } else if (all.coordinates != 0) {
         if (all.coordinates < count)
-            refuse(all, "the points have another dimension", "3, for the mesh is 3-dimensional", "2",
+            refuse("point.dimension", all, "the points have another dimension", "3, for the mesh is 3-dimensional", "2",
                    "give points of the dimension of the mesh");
         if (all.coordinates > count) out.zero = count;
     } else if (all.named) {

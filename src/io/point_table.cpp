@@ -102,17 +102,21 @@ Source points_of_table(PointTable table, const std::string& file, int dimension,
     for (std::size_t axis = 0; axis < d; ++axis) {
         const std::size_t column = chosen.axes[axis];
         if (places[column].label != nullptr)
-            refuse_file(file,
-                        table.of_nodes ? "a marker cannot be a coordinate"
-                                       : "a column of texts or large integers cannot be a coordinate",
-                        {}, base::quoted(all.names[column]), "name a column of numbers in options.columns");
+            throw Exception(
+                about("options.columns",
+                      file_error("column.type", file,
+                                 table.of_nodes ? "a marker cannot be a coordinate"
+                                                : "a column of texts or large integers cannot be a coordinate",
+                                 {}, base::quoted(all.names[column]), "name a column of numbers in options.columns")));
         for (std::size_t i = 0; i < count; ++i) {
             const double x = points[d * i + axis] = number(places[column], i);
             if (options.nonfinite_points == NonfinitePoints::error && !std::isfinite(x))
-                refuse_file(file, "a point that is not finite", "finite coordinates",
-                            base::shortest(x) + " in " + base::quoted(all.names[column]) + " of point " +
-                                std::to_string(i) + ", counted from 0",
-                            std::string("remove the point, give it coordinates") + or_nan_for_it);
+                throw Exception(
+                    about(nonfinite_points,
+                          file_error("point.not-finite", file, "a point that is not finite", "finite coordinates",
+                                     base::shortest(x) + " in " + base::quoted(all.names[column]) + " of point " +
+                                         std::to_string(i) + ", counted from 0",
+                                     std::string("remove the point, give it coordinates") + or_nan_for_it)));
         }
     }
     for (std::size_t i = 0; chosen.zero && i < count; ++i) {
@@ -149,7 +153,8 @@ PointSource::~PointSource() = default;
 
 Result<std::unique_ptr<PointSource>> open_points(const std::string& path, int dimension, const PointOptions& options) {
     if (dimension != 2 && dimension != 3)
-        return file_error(path, "points can have 2 or 3 coordinates", "2 or 3", std::to_string(dimension));
+        return file_error("point.dimension", path, "points can have 2 or 3 coordinates", "2 or 3",
+                          std::to_string(dimension));
     return io::read_guarded(path, [&] { return io::open_any(path, dimension, options); });
 }
 

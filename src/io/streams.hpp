@@ -54,12 +54,16 @@ inline bool are_places(const std::vector<std::string>& columns) {
 /// By PointOptions. Errors: columns that are not there, or not clear; a coordinate that is to be carried through.
 PointColumns choose_columns(const TableColumns& all, int dimension, const PointOptions& options);
 
+/// The subject of errors that NonfinitePoints::nan would let pass, and how their remedies end.
+inline constexpr const char* nonfinite_points = "options.nonfinite_points";
 inline constexpr const char* or_nan_for_it = ", or take NaN for its values: options.nonfinite_points nan";
 
 /// Refuses a z that is not 0 beside a mesh in the plane. `row`: of which point, or empty.
 [[noreturn]] inline void refuse_off_plane(const std::string& file, const std::string& row, const std::string& found) {
-    refuse_file(file, "a point off the plane z = 0" + (row.empty() ? row : ": " + row), "z = 0, for the mesh is 2D",
-                found, "options.columns x,y leaves z out of account");
+    throw Exception(
+        about("options.columns",
+              file_error("point.off-plane", file, "a point off the plane z = 0" + (row.empty() ? row : ": " + row),
+                         "z = 0, for the mesh is 2D", found, "options.columns x,y leaves z out of account")));
 }
 
 /// "a", "b", ...: at most 8.
@@ -76,12 +80,13 @@ public:
 
     Result<std::size_t> read(std::size_t max_points, std::vector<double>& out) override {
         const ExactEnvironment environment;
-        if (!error_.what.empty()) return error_;
+        if (error_) return *error_;
         mesh::begin_columns(formats_, carried_);
         try {
             return next(max_points, out);
         } catch (const Exception& problem) {
-            return error_ = problem.error();
+            error_ = problem.error();
+            return *error_;
         }
     }
 
@@ -95,7 +100,7 @@ protected:
     Notes notes_;
 
 private:
-    Error error_;
+    std::optional<Error> error_;  // what every further call tells
 };
 
 class RowSink : public TableSink {
@@ -104,7 +109,7 @@ public:
     RowSink(const std::string& path, TableFormat format);
 
     Status write(const TableView& rows) override;
-    Status commit() override { return error_.what.empty() ? file_.commit() : Status(error_); }
+    Status commit() override { return error_ ? Status(*error_) : file_.commit(); }
 
 protected:
     /// Error: the file cannot hold something of these rows, which fit together.
@@ -134,7 +139,7 @@ protected:
 
 private:
     std::vector<ByteRoom> pieces_;
-    Error error_;  // rows that do not fit
+    std::optional<Error> error_;  // rows that do not fit
 };
 
 }  // namespace barycert::io

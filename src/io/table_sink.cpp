@@ -19,11 +19,12 @@ Status check_rows(const TableView& rows, const TableFormat& format, const std::s
                       rows.distances.size() == (format.distances ? count : 0);
     const auto degenerate = std::find(rows.features.begin(), rows.features.end(), Feature::degenerate);
     if (good && degenerate != rows.features.end())
-        return file_error(path, "a row in a degenerate cell", "interior, face, edge, vertex or outside",
+        return file_error("point.degenerate", path, "a row in a degenerate cell",
+                          "interior, face, edge, vertex or outside",
                           "degenerate, in row " + std::to_string(degenerate - rows.features.begin()) + " of a block",
                           "degenerate cells contain no points: mark the row as outside");
     if (good) return Done{};
-    return file_error(path, "the parts of a block of rows have different sizes",
+    return file_error("argument.size", path, "the parts of a block of rows have different sizes",
                       "for each cell " + std::to_string(format.dimension) + " coordinates, a feature, " +
                           std::to_string(columns) + " values" + (format.distances ? ", a distance" : "") + ", " +
                           std::to_string(format.carried.size()) + " carried values of the types that were told",
@@ -44,10 +45,10 @@ Status RowSink::write(const TableView& rows) {
     // A thread lays out one piece at a time: large enough that handing it over costs nothing.
     constexpr std::size_t piece_size = std::size_t{1} << 18, pieces_at_once = 16;
     const ExactEnvironment environment;
-    if (!error_.what.empty()) return error_;
+    if (error_) return *error_;
     Status fits = check_rows(rows, format_, path_);
     if (fits) fits = check(rows);
-    if (!fits) return error_ = fits.error();
+    if (!fits) return *(error_ = fits.error());
     const std::size_t count = rows.cells.size(), longest = longest_row(rows);
     const std::size_t rows_a_piece = std::max<std::size_t>(1, piece_size / longest);
     // Pieces are laid out side by side and written in order: the bytes do not depend on the threads.
@@ -73,19 +74,19 @@ TableSink::~TableSink() = default;
 Result<std::unique_ptr<TableSink>> open_table(const std::string& path, const TableFormat& format) try {
     const ExactEnvironment environment;
     if (format.dimension != 2 && format.dimension != 3)
-        return file_error(path, "points of rows can have 2 or 3 coordinates", "2 or 3",
+        return file_error("point.dimension", path, "points of rows can have 2 or 3 coordinates", "2 or 3",
                           std::to_string(format.dimension));
     std::set<std::string> names;
     for (const std::string& name : format.columns()) {
         if (names.insert(name).second) continue;
-        return file_error(path, "two columns of the rows would have the same name",
+        return file_error("column.duplicate", path, "two columns of the rows would have the same name",
                           "fields whose columns differ (components are NAME.0, NAME.1, ...)",
                           base::quoted(name) + " twice", "rename a field, or leave it out");
     }
     const Result<io::FileFormat> kind = io::format_of(path);
     if (kind && *kind == io::FileFormat::vtu) return io::open_vtu_sink(path, format);
     if (!kind || *kind == io::FileFormat::node)
-        return file_error(path, "cannot write rows in the format of that suffix",
+        return file_error("file.suffix", path, "cannot write rows in the format of that suffix",
                           ".csv, .npy or .vtu, or - for CSV on the standard output",
                           kind ? "a format for points alone" : kind.error().found, "name a .csv, .npy or .vtu file");
     return *kind == io::FileFormat::csv ? io::open_csv_sink(path, format) : io::open_npy_sink(path, format);

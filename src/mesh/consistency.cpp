@@ -113,13 +113,14 @@ const char* inconsistency(const Mesh& mesh, FieldValues values) {
 }
 
 Status check_field(const Field* field, std::size_t rows, const char* of) {
-    if (field == nullptr) return Error{.what = "a field is missing"};
+    if (field == nullptr) return Error{.code = "field.unknown", .what = "a field is missing"};
     const std::string name = "field \"" + field->name + '"';
     if (field->components < 1)
-        return file_error({}, "number of components of " + name, "at least 1", std::to_string(field->components));
+        return file_error("field.component", {}, "number of components of " + name, "at least 1",
+                          std::to_string(field->components));
     const std::size_t expected = rows * static_cast<std::size_t>(field->components);
     if (field->data.size() == expected) return Done{};
-    return file_error({}, "size of " + name,
+    return file_error("field.size", {}, "size of " + name,
                       std::to_string(expected) + " numbers, " + std::to_string(field->components) + " for each " + of,
                       std::to_string(field->data.size()));
 }

@@ -232,8 +232,8 @@ std::string message(const CurvedCells& curved) {
 Result<CurvedCells> measure_curved(const Mesh& mesh, const std::string& file, Curved curved) {
     const CurvedCells found = curved_cells(mesh, nullptr, curved == Curved::exact);
     if (curved != Curved::refuse || found.cells == 0) return found;
-    return file_error(file, "the mesh is curved", "every node of a higher order where a straight cell has it",
-                      deviations(found),
+    return file_error("mesh.curved", file, "the mesh is curved",
+                      "every node of a higher order where a straight cell has it", deviations(found),
                       "mesh it with straight sides, or let them be taken as straight: `straight` in place of `refuse`");
 }
 

@@ -95,12 +95,14 @@ int call_kernel(const double* vertices, const double* point, double* weights) {
         callable_kernel->raised = in_words(e);
     }
     if (call.left_a_process())
-        throw Exception({.what = "the kernel left a process behind that it had forked",
+        throw Exception({.code = "kernel.process",
+                         .what = "the kernel left a process behind that it had forked",
                          .remedy = "let it end its processes, and wait for them, before it returns"});
     if (answer.is_none()) return 1;
     const py::array_t<double, py::array::c_style | py::array::forcecast> numbers(answer);
     if (numbers.ndim() != 1 || numbers.size() != n)
-        throw Exception({.what = "what the kernel returned",
+        throw Exception({.code = "kernel.result",
+                         .what = "what the kernel returned",
                          .expected = std::to_string(n) + " weights, or None for a degenerate simplex",
                          .found = py::repr(answer)});
     std::copy_n(numbers.data(), n, weights);
@@ -169,8 +171,9 @@ std::shared_ptr<AuditReport> audit(const py::object& function, Simplex simplex, 
     std::unique_lock<std::mutex> turn;
     if (callable.function) {
         if (Call::now != nullptr)
-            throw Exception(
-                {.what = "an audit of a callable within an audit", .remedy = "begin it when the other has ended"});
+            throw Exception({.code = "argument.value",
+                             .what = "an audit of a callable within an audit",
+                             .remedy = "begin it when the other has ended"});
         turn = std::unique_lock(callable_kernel_in_use);
         callable_kernel = &callable;
     }

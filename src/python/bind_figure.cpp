@@ -47,12 +47,14 @@ public:
         try {
             to = left_.attr("pop")(name).template cast<T>();
         } catch (const py::cast_error&) {
-            throw Exception({.what = "the option " + std::string(name) + " is of another type; see Mesh.plot"});
+            throw Exception({.code = "option.value",
+                             .what = "the option " + std::string(name) + " is of another type; see Mesh.plot"});
         }
     }
     void finish() const {
         for (const auto& [name, value] : left_)
-            throw Exception({.what = "no such option", .found = py::str(name), .remedy = "see Mesh.plot"});
+            throw Exception(
+                {.code = "option.value", .what = "no such option", .found = py::str(name), .remedy = "see Mesh.plot"});
     }
 
 private:
@@ -95,7 +97,8 @@ void take(const Options& given, FigureOptions& o) {
     given("view", view);
     std::optional<std::pair<double, double>> camera = angles_of(view);
     if (!view.empty() && !camera)
-        throw Exception({.what = "the view", .expected = "iso, +x, -x, +y, -y, +z or -z", .found = view});
+        throw Exception(
+            {.code = "option.value", .what = "the view", .expected = "iso, +x, -x, +y, -y, +z or -z", .found = view});
     given("camera", camera);
     if (camera) std::tie(o.camera.azimuth, o.camera.elevation) = *camera;
     given("zoom", o.camera.zoom);

@@ -161,7 +161,7 @@ py::array on_grid(const BoundSampler& bound, const Grid& grid, const SampleOptio
             tell(progress, "points", first + rows.row_count(), total);
         } catch (...) {
             raised = std::current_exception();
-            return Error{.what = "interrupted"};
+            return Error{.code = "run.interrupted", .what = "interrupted"};
         }
         return Done{};
     };

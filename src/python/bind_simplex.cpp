@@ -39,7 +39,8 @@ Simplex simplex_of(const Given<double>& vertices) {
         if (vertex_count(s) == vertices.shape(1) && space_dimension(s) == vertices.shape(2)) return s;
     }
     throw Exception(
-        {.what = "shape of the vertices",
+        {.code = "argument.size",
+         .what = "shape of the vertices",
          .expected = "(..., 2, 3) segments, (..., 3, 2) or (..., 3, 3) triangles, (..., 4, 3) tetrahedra",
          .found = "(..., " + std::to_string(vertices.shape(1)) + ", " + std::to_string(vertices.shape(2)) + ")"});
 }

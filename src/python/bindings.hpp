@@ -57,7 +57,8 @@ struct Words {
             const bool last = i + 1 == all.size() || all[i + 1].first.empty();
             expected.append(i == 0 ? "" : last ? " or " : ", ").append(all[i].first);
         }
-        throw Exception({.what = what, .expected = std::move(expected), .found = std::string(word)});
+        throw Exception(
+            {.code = "option.value", .what = what, .expected = std::move(expected), .found = std::string(word)});
     }
 };
 template <class T>

@@ -16,21 +16,24 @@ void set_error(const Error& error) {
             PyUnicode_DecodeUTF8(s.data(), static_cast<Py_ssize_t>(s.size()), "backslashreplace"));
     };
     const py::object exception = py::handle(error_type)(text(error.message()));
+    exception.attr("code") = text(std::string(error.code.name()));
     exception.attr("what") = text(error.what);
     exception.attr("file") = text(error.file);
     exception.attr("expected") = text(error.expected);
     exception.attr("found") = text(error.found);
     exception.attr("remedy") = text(error.remedy);
     exception.attr("line") = error.line;
+    exception.attr("subject") = text(error.subject);
     PyErr_SetObject(error_type, exception.ptr());
 }
 
 void bind_errors(py::module_& module) {
     error_type =
         PyErr_NewExceptionWithDoc("barycert.Error",
-                                  "What went wrong with an input. str() is the whole message; its parts, empty "
-                                  "where they do not apply, are `what`, `file`, `line` (from 1; 0: none), "
-                                  "`expected`, `found` and `remedy`.",
+                                  "What went wrong with an input. `code` is a stable name of its kind "
+                                  "(doc/errors.md). str() is the whole message; its parts, empty where they do not "
+                                  "apply, are `what`, `file`, `line` (from 1; 0: none), `expected`, `found` and "
+                                  "`remedy`. `subject`: the member of a job that it is about.",
                                   PyExc_ValueError, nullptr);
     if (error_type == nullptr) throw py::error_already_set();
     module.attr("Error") = py::handle(error_type);
@@ -44,10 +47,11 @@ void bind_errors(py::module_& module) {
     });
     module.def(
         "fail",
-        [](const std::string& what, const std::string& expected, const std::string& found, const std::string& remedy) {
-            throw Exception(file_error({}, what, expected, found, remedy));
+        [](const std::string& code, const std::string& what, const std::string& expected, const std::string& found,
+           const std::string& remedy) {
+            throw Exception(file_error(ErrorCode::named(code).value(), {}, what, expected, found, remedy));
         },
-        py::arg("what"), py::arg("expected") = "", py::arg("found") = "", py::arg("remedy") = "",
+        py::arg("code"), py::arg("what"), py::arg("expected") = "", py::arg("found") = "", py::arg("remedy") = "",
         "Raises Error with these parts.");
 }
 

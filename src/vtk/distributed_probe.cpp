@@ -170,7 +170,7 @@ public:
 
 private:
     static Error not_exact(const std::string& why) {
-        return Error{.what = "the source cannot be probed exactly: " + why};
+        return Error{.code = "rank.source", .what = "the source cannot be probed exactly: " + why};
     }
 
     void note(const pieces::Distribution& distribution, bool has_numbers, const char* text) {
@@ -186,7 +186,8 @@ private:
             if (facts_.dimension >= 2 && facts_.numbered) {
                 vtkCellData& cells = *source_->GetCellData();
                 if (std::string fault = fault_of_global_ids(cells, source_->GetNumberOfCells(), "cell"); !fault.empty())
-                    return Error{.what = "the source cannot be probed by several processes: " + fault};
+                    return Error{.code = "rank.source",
+                                 .what = "the source cannot be probed by several processes: " + fault};
             }
             count_ = static_cast<std::size_t>(input_->GetNumberOfPoints());
             return Done{};
@@ -207,11 +208,13 @@ private:
             report_.notes = index_->notes;
             if (exchange_.size() > 1 && shape_.by_numbers && index_->locator) numbers_ = global_ids(*source_, *index_);
             const bool categorical = settings_.categorical && index_->locator;
-            if (std::string fault = fault_of_arrays(*source_, categorical); !fault.empty()) return Error{.what = fault};
+            if (std::string fault = fault_of_arrays(*source_, categorical); !fault.empty())
+                return Error{.code = "rank.source", .what = fault};
             arrays_.emplace(*index_, *source_, *scratch_, settings_.categorical, settings_.mask.c_str());
             report_.inexact = arrays_->inexact();
             kinds_ = kinds_of(*scratch_->GetPointData(), settings_.mask.c_str());
-            if (std::string fault = fault_of(kinds_); !fault.empty()) return Error{.what = fault};
+            if (std::string fault = fault_of(kinds_); !fault.empty())
+                return Error{.code = "rank.source", .what = fault};
             return Done{};
         });
     }

@@ -202,16 +202,19 @@ int vtkPBarycertProbe::RequestData(vtkInformation*, vtkInformationVector** input
     Status ready = Done{};
     const auto* const pipeline = dynamic_cast<FailingUpstream*>(GetExecutive());
     if (pipeline != nullptr && !pipeline->failure().empty())
-        ready = Error{.what = "what comes before this filter failed: " + pipeline->failure()};
+        ready = Error{.code = "rank.source", .what = "what comes before this filter failed: " + pipeline->failure()};
     else if (vtkCompositeDataSet::GetData(inputs[0]) != nullptr || vtkCompositeDataSet::GetData(inputs[1]) != nullptr)
-        ready = Error{.what = "this filter takes no composite data sets", .remedy = "merge the blocks before"};
+        ready = Error{.code = "rank.source",
+                      .what = "this filter takes no composite data sets",
+                      .remedy = "merge the blocks before"};
     else if (input == nullptr || output == nullptr)
-        ready = Error{.what = "the input is missing"};
+        ready = Error{.code = "argument.value", .what = "the input is missing"};
     else
         output->CopyStructure(input);
 
     if (ready && !GetComputeTolerance() && GetTolerance() > 0)
-        ready = Error{.what = "this filter has no Tolerance: points are inside the mesh or not",
+        ready = Error{.code = "option.value",
+                      .what = "this filter has no Tolerance: points are inside the mesh or not",
                       .remedy = "leave ComputeTolerance on"};
     in_vtk::Processes processes(Controller);
     pieces::Exchange exchange(processes);

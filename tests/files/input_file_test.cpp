@@ -171,7 +171,7 @@ TEST_F(InputFileTest, TheFirstBlockDecides) {
     const base::Header refuse = [&](std::string_view block, std::uint64_t size) -> Status {
         EXPECT_EQ(block.size(), base::first_block);
         asked = size;
-        return Error{.what = "no header"};
+        return Error{.code = "file.syntax", .what = "no header"};
     };
     EXPECT_EQ(base::read_file(path("f"), base::longest_pipe, base::Text::all, refuse).error().what, "no header");
     EXPECT_EQ(asked, words.size() + 1);

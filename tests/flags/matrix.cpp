@@ -80,9 +80,9 @@ struct Loaded {
 
 Result<Loaded> load(const Variant& v) {
     void* const library = dlopen(v.library.c_str(), RTLD_NOW | RTLD_LOCAL);
-    if (library == nullptr) return Error{.what = "cannot load the formulas", .file = v.library, .found = dlerror()};
+    if (library == nullptr) return Error{.code = "file.missing", .what = "cannot load the formulas", .file = v.library, .found = dlerror()};
     const auto entries = reinterpret_cast<decltype(&flags_entries)>(dlsym(library, "flags_entries"));
-    if (entries == nullptr) return Error{.what = "no formulas in the library", .file = v.library};
+    if (entries == nullptr) return Error{.code = "file.missing", .what = "no formulas in the library", .file = v.library};
     int count = 0;
     const FlagsEntry* const first = entries(&count);
     return Loaded{v, {first, first + count}};
@@ -237,7 +237,7 @@ Result<Matrix> measure(const std::string& list, std::uint64_t count, std::uint64
             m.compilers.push_back(version);
     }
     if (columns.empty())
-        return Error{.what = "no library of formulas", .file = list, .remedy = "build the target flags_variants"};
+        return Error{.code = "file.missing", .what = "no library of formulas", .file = list, .remedy = "build the target flags_variants"};
     const MeshSource none;
     for (const Family& f : all_families()) {
         if (!f.needs_mesh) m.families.push_back(f.name);

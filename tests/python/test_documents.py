@@ -92,7 +92,7 @@ def test_the_stub_has_what_users_see_of_the_module():
     (error,) = (node for node in stub.body if isinstance(node, ast.ClassDef))
     assert error.name == "Error" and issubclass(_core.Error, ValueError)
     with pytest.raises(_core.Error) as raised:
-        _core.fail("this", expected="that", found="other", remedy="change it")
+        _core.fail("field.unknown", "this", expected="that", found="other", remedy="change it")
     assert {item.target.id for item in error.body} == set(vars(raised.value))
     # Whatever else of it users get has a type in the package.
     public = {name for name in barycert.__all__ if getattr(_core, name, None) is getattr(barycert, name)}

@@ -20,7 +20,7 @@ void check_files(const AuditArguments& a) {
     if (!a.job.baseline.empty()) inputs.push_back({"--baseline", a.job.baseline});
     a.reports.check(inputs);
     if (!a.others.empty() && a.reports.path("--html").empty())
-        throw Exception({.what = "--with needs --html", .remedy = "it adds to the page"});
+        throw Exception({.code = "option.missing", .what = "--with needs --html", .remedy = "it adds to the page"});
 }
 
 /// Refuses options about kernels, their cases and reports on them in modes that audit something else.
@@ -28,7 +28,8 @@ void check_alone(const AuditArguments& a) {
     const auto check = [&](const char* mode, const char* audited, std::initializer_list<std::string_view> fits) {
         const std::string other = given_option(*a.app, fits, true);
         if (!other.empty())
-            throw Exception({.what = fmt::format("{} and {}", mode, other),
+            throw Exception({.code = "option.conflict",
+                             .what = fmt::format("{} and {}", mode, other),
                              .remedy = fmt::format("leave {} out: {} audits {}", other, mode, audited)});
     };
     if (a.mutants)
@@ -44,7 +45,10 @@ void check_alone(const AuditArguments& a) {
     for (const std::string& name : a.job.kernels.names) {
         const std::string shape = name.substr(0, name.find('.')) + ".";
         if (std::ranges::any_of(inverse_rules(), [&](const InverseRule& r) { return r.name.starts_with(shape); }))
-            throw Exception({.what = "no kernel of simplices", .found = name, .remedy = "--inverse-maps audits those"});
+            throw Exception({.code = "kernel.unknown",
+                             .what = "no kernel of simplices",
+                             .found = name,
+                             .remedy = "--inverse-maps audits those"});
     }
 }
 

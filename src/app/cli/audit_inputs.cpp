@@ -45,7 +45,7 @@ Result<std::vector<NamedMesh>> meshes_or_own(const std::vector<std::string>& pat
     }
     // Some of them alone would be another audit.
     if (meshes.empty() || trouble)
-        return file_error(folder, "barycert's own meshes are missing", {},
+        return file_error("witness.mesh", folder, "barycert's own meshes are missing", {},
                           trouble ? trouble.message() : "no .node file",
                           "name a mesh, or set BARYCERT_DATA_DIR to the folder `data` of barycert's sources");
     return meshes;

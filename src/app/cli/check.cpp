@@ -23,7 +23,7 @@ int run_check(Arguments<CheckJob>& a) {
                   .written = c.written};
         if (c.fixed && !c.copied) {
             Error error = c.written.error();
-            if (error.what.starts_with("no copy is written"))
+            if (error.code == "mesh.fix-empty")
                 error.found = fmt::format("{}", fmt::join(report::fix_sentences(*c.fixed), "; "));
             told.written = error;
             return told;  // without the copy the reports would say less than was asked for

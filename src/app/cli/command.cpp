@@ -7,8 +7,14 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <utility>
+#include <vector>
 
+#include "barycert/error_report.hpp"
 #include "core/base/text.hpp"
+#include "files/named_file.hpp"
 #include "files/output_file.hpp"
 
 namespace barycert::cli {
@@ -16,7 +22,7 @@ namespace {
 
 /// Members of jobs and what is in them whose options have the same name, with - for _.
 constexpr std::string_view same_names =
-    " bounds cell_base cell_column colours columns count delaunay family field fields fix fix_orientation image "
+    " bounds cell_base cell_column colours columns count delaunay edges family field fields fix fix_orientation image "
     "in_process keep kernel kernel_library line map mask_column merge_within mesh nonfinite_points onto output outside "
     "plane plot points picture range reason results rounding save_map scale seed simplex size spacing step time "
     "tolerance value "
@@ -46,7 +52,39 @@ std::string option_of(std::string_view member) {
 /// Letters of the names of members.
 constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyz_";
 
-std::string remembered_arguments;
+/// The option that sets what an error is about: a member of a job or of options, or the option itself.
+std::string option_of_subject(std::string_view subject) {
+    if (subject.starts_with("--")) return std::string(subject);
+    for (const std::string_view owner : {"job.", "options."}) {
+        if (subject.starts_with(owner)) return option_of(subject.substr(owner.size()));
+    }
+    return "";
+}
+
+std::vector<std::string> remembered_arguments;
+std::string expected_json;
+
+/// True if the file may be replaced by the error: there is none, or it is JSON, as of an earlier run, and no other
+/// argument names it. Inputs may not have been looked at yet.
+bool may_be_replaced(const std::string& path) {
+    const auto names_it = [&](std::string_view argument) {
+        const std::size_t value = argument.starts_with("--") ? argument.find('=') + 1 : 0;
+        return base::same_file(path, std::string(argument.substr(value)));
+    };
+    if (std::ranges::count_if(remembered_arguments, names_it) > 1) return false;
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(path, ignored)) return true;
+    std::ifstream file(path);
+    return file.get() == '{';
+}
+
+/// No error of its own: the first one has been told.
+void write_json(const Error& error) {
+    const std::string path = std::exchange(expected_json, {});
+    // Where outputs collide, the place is another file's.
+    if (path.empty() || error.code == "file.overwrite" || (path != "-" && !may_be_replaced(path))) return;
+    static_cast<void>(write_output(path, error_json(error, option_of_subject(error.subject))));
+}
 
 }  // namespace
 
@@ -57,9 +95,17 @@ void tell(std::string_view text) {
 
 int fail(Error error) {
     std::fflush(stdout);
-    for (std::string* const text : {&error.what, &error.expected, &error.remedy}) *text = with_options(*text);
-    tell(fmt::format("error: {}\n", with_command_name(error.message())));
+    for (std::string* const text : {&error.what, &error.expected, &error.remedy}) {
+        if (!error.subject.empty()) *text = with_options(*text);
+        *text = with_command_name(*text);
+    }
+    tell(fmt::format("error: {}\n", error.message()));
+    write_json(error);
     return exit_error;
+}
+
+void expect_json(const std::string& path) {
+    expected_json = path;
 }
 
 void tell_important(const Notes& notes) {
@@ -71,7 +117,7 @@ void tell_important(const Notes& notes) {
 Status write_output(const std::string& path, std::string_view bytes) {
     if (path == "-") {
         if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) != bytes.size() || std::fflush(stdout) != 0)
-            return Error{.what = "cannot write to stdout", .found = std::strerror(errno)};
+            return Error{.code = "file.unwritable", .what = "cannot write to stdout", .found = std::strerror(errno)};
         return Done{};
     }
     base::OutputFile file(path);
@@ -109,16 +155,20 @@ std::string with_options(std::string text) {
 }
 
 Notes with_options(Notes notes) {
-    for (Note& note : notes) note.text = with_options(note.text);
+    for (Note& note : notes) {
+        if (!note.subject.empty()) note.text = with_options(note.text);
+    }
     return notes;
 }
 
 std::string command_line() {
-    return command_name() + remembered_arguments;
+    std::string line = command_name();
+    for (const std::string& argument : remembered_arguments) line += " " + base::shell_word(argument);
+    return line;
 }
 
 void remember_command_line(int argc, const char* const* argv) {
-    for (int i = 1; i < argc; ++i) remembered_arguments += " " + base::shell_word(argv[i]);
+    for (int i = 1; i < argc; ++i) remembered_arguments.emplace_back(argv[i]);
 }
 
 }  // namespace barycert::cli

@@ -42,6 +42,10 @@ void tell(std::string_view text);
 /// Exception that a subcommand throws, as value() does, ends there, too.
 int fail(Error error);
 
+/// Where fail() writes the error as JSON (doc/json.md): the file of --json, "-" for stdout, empty for none. Until the
+/// report stands there.
+void expect_json(const std::string& path);
+
 /// "note: ..." on stderr for each that may change what results mean.
 void tell_important(const Notes& notes);
 
@@ -54,8 +58,10 @@ std::string command_name();
 /// The text with that name for the program in each of its commands, which stand between ` and `.
 std::string with_command_name(std::string text);
 
-/// The text with the option that sets it in place of each member of a job: "--points" for "job.points".
+/// The text of an error or a note that has a subject, with the option that sets it in place of each member of a job:
+/// "--points" for "job.points". A text without a subject names none, and may hold such words by chance.
 std::string with_options(std::string text);
+/// The notes, those that have a subject with options in their texts.
 Notes with_options(Notes notes);
 
 /// The whole command as a shell takes it: command_name() and the arguments. main() tells it to remember.

@@ -88,7 +88,9 @@ std::string date() {
 int write_pages(const CommandEntry& program, const std::string& folder) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
-    if (error) return fail({.what = "cannot make the folder", .file = folder, .found = error.message()});
+    if (error)
+        return fail(
+            {.code = "file.unwritable", .what = "cannot make the folder", .file = folder, .found = error.message()});
     std::vector<ManPage> pages = man_pages(program, "barycert " BARYCERT_VERSION, variables(), date());
     for (ManPage& page : man_pages(mesher(program), "barycert " BARYCERT_VERSION, {}, date()))
         pages.push_back(std::move(page));
@@ -104,7 +106,7 @@ int explain(const CLI::App& app, const std::vector<std::string>& words) {
         const auto named = [&](const CLI::App* sub) { return sub->get_name() == word; };
         const auto found = command->get_subcommands(named);
         if (found.empty())
-            return fail(file_error({}, "no such subcommand", {}, '"' + word + '"',
+            return fail(file_error("option.usage", {}, "no such subcommand", {}, '"' + word + '"',
                                    base::did_you_mean(word, command_names(*command), "`barycert help` lists them")));
         above += (above.empty() ? "" : " ") + command->get_name();
         command = found.front();
@@ -124,7 +126,7 @@ int run_help(HelpArguments& a) {
     if (!pages && !script) return explain(app, a.words);
     const bool of_mesher = script && a.words == std::vector<std::string>{"mesh"};
     if ((!a.words.empty() && !of_mesher) || (pages && script))
-        return fail(file_error({}, "manual pages and completions are of all subcommands",
+        return fail(file_error("option.conflict", {}, "manual pages and completions are of all subcommands",
                                "--man DIR, --completion SHELL or subcommands", "several of these",
                                "give one of them alone"));
     const CommandEntry program = command_table(app, vocabulary(app));

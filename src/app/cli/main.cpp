@@ -42,7 +42,7 @@ int exec_mesh(int argc, char** argv) {
     if (!ignored && fs::exists(beside, ignored)) execv(beside.c_str(), arguments.data());
     execvp(name, arguments.data());
     return fail(file_error(
-        {}, "cannot run barycert-tetgen", {}, std::strerror(errno),
+        "tool.missing", {}, "cannot run barycert-tetgen", {}, std::strerror(errno),
         "install the package barycert-tetgen; among the sources use `./run barycert mesh ...`, which builds it"));
 }
 
@@ -89,7 +89,7 @@ int run(int argc, char** argv) {
 in the baseline, a mutant is not caught, or a witness is not reproduced; 2 usage or input error.
 Tables go to stdout, everything else to stderr. `barycert help SUBCOMMAND` explains each.)"));
     if (!first.empty() && first.front() != '-' && std::ranges::count(command_names(app), first) == 0)
-        return fail(file_error({}, "no such subcommand", {}, '"' + std::string(first) + '"',
+        return fail(file_error("option.usage", {}, "no such subcommand", {}, '"' + std::string(first) + '"',
                                base::did_you_mean(first, command_names(app), "`barycert --help` lists them")));
     try {
         remember_command_line(argc, argv);
@@ -101,7 +101,7 @@ Tables go to stdout, everything else to stderr. `barycert help SUBCOMMAND` expla
         // --help and --version were printed: to a full disk, perhaps.
         std::cout.flush();
         if (std::cout && write_output("-", "")) return exit_clean;
-        return fail({.what = "cannot write to stdout", .found = std::strerror(errno)});
+        return fail({.code = "file.unwritable", .what = "cannot write to stdout", .found = std::strerror(errno)});
     }
     return exit_code;
 }
@@ -119,7 +119,7 @@ int main(int argc, char** argv) {
         return cli::fail_for_want_of_memory();
     } catch (const std::exception& e) {
         try {
-            return cli::fail({.what = e.what()});
+            return cli::fail({.code = "internal.error", .what = e.what()});
         } catch (...) {
             return cli::fail_for_want_of_memory();
         }

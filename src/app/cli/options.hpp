@@ -120,7 +120,9 @@ public:
         if constexpr (requires { a->app; }) a->app = sub;
         sub->footer(with_command_name(footer));
         sub->callback([a, work, sub, code = exit_code_] {
-            if (sub->get_subcommands().empty()) *code = work(*a);
+            if (!sub->get_subcommands().empty()) return;
+            if constexpr (requires { a->reports; }) expect_json(a->reports.path("--json"));
+            *code = work(*a);
         });
         return {Options(*sub, *exit_code_), *a};
     }

@@ -17,9 +17,14 @@ int run_picture(PictureArguments& a) {
 
 int run_scene_file(PictureArguments& a) {
     if (a.job.scene.empty())
-        return fail({.what = "nothing to draw", .expected = picture_or_scene, .remedy = pictures_remedy});
+        return fail({.code = "option.missing",
+                     .what = "nothing to draw",
+                     .expected = picture_or_scene,
+                     .remedy = pictures_remedy});
     if (a.job.output.empty())
-        return fail({.what = "--output is required", .remedy = "name the picture: --output FILE.png"});
+        return fail({.code = "option.missing",
+                     .what = "--output is required",
+                     .remedy = "name the picture: --output FILE.png"});
     return run_picture(a);
 }
 
@@ -182,7 +187,7 @@ void add_render(const Options& program) {
     const auto scene = [&job = a.job, app = &o.app()](const std::string& word) {
         const std::vector<std::string> pictures = command_names(*app);
         if (!word.ends_with(".json") && std::find(pictures.begin(), pictures.end(), word) == pictures.end())
-            throw Exception(file_error({}, "no such picture", picture_or_scene, '"' + word + '"',
+            throw Exception(file_error("option.usage", {}, "no such picture", picture_or_scene, '"' + word + '"',
                                        base::did_you_mean(word, pictures, pictures_remedy)));
         job.scene = word;
         return true;

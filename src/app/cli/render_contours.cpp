@@ -24,8 +24,9 @@ void add_contour_options(const Options& o, ContourArguments& a) {
 int run_contour(ContourArguments& a) {
     const std::string of_picture = given_option(*a.app, figure_options);
     if (!of_picture.empty() && !a.job.output.empty() && !is_figure_name(a.job.output))
-        return fail(
-            {.what = of_picture + " is for pictures", .remedy = "leave it out, or name a .png, .svg or .pdf file"});
+        return fail({.code = "option.unfit",
+                     .what = of_picture + " is for pictures",
+                     .remedy = "leave it out, or name a .png, .svg or .pdf file"});
     return a.reports.summarise(a.job, contour_files, contour_json, contour_text);
 }
 
@@ -40,11 +41,15 @@ void add_segment(const Options& o, ContourArguments& a) {
 /// t and the point, on one line.
 int on_segment(const ContourArguments& a) {
     if (a.values.empty() || !a.job.value)
-        return fail({.what = "--segment needs the values at its ends and the one to look for",
+        return fail({.code = "option.missing",
+                     .what = "--segment needs the values at its ends and the one to look for",
                      .expected = "--values FA,FB --value V"});
-    if (!a.job.mesh.empty()) return fail({.what = "--segment cannot be combined with a mesh", .found = a.job.mesh});
+    if (!a.job.mesh.empty())
+        return fail(
+            {.code = "option.conflict", .what = "--segment cannot be combined with a mesh", .found = a.job.mesh});
     const std::string of_mesh = given_option(*a.app, {"--segment", "--values", "--value"}, true);
-    if (!of_mesh.empty()) return fail({.what = "--segment cannot be combined with " + of_mesh});
+    if (!of_mesh.empty())
+        return fail({.code = "option.conflict", .what = "--segment cannot be combined with " + of_mesh});
     std::vector<double> point(a.ends[0].size());
     const Parameter t = point_of_value(a.ends[0], a.ends[1], a.values[0], a.values[1], *a.job.value, point).value();
     std::string text;
@@ -62,9 +67,10 @@ int on_segment(const ContourArguments& a) {
 
 int run_iso(ContourArguments& a) {
     if (!a.ends.empty()) return on_segment(a);
-    if (!a.values.empty()) return fail({.what = "--values needs --segment"});
+    if (!a.values.empty()) return fail({.code = "option.missing", .what = "--values needs --segment"});
     if (a.job.mesh.empty() || a.job.field.empty() || !a.job.value || a.job.output.empty())
-        return fail({.what = "something is missing",
+        return fail({.code = "option.missing",
+                     .what = "something is missing",
                      .expected = "MESH --field NAME --value V --output FILE, or --segment A:B --values FA,FB --value V",
                      .remedy = "`barycert render iso --help` explains them"});
     return run_contour(a);

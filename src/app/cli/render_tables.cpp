@@ -13,8 +13,8 @@ constexpr const char* json_figures = "Write the figures as JSON; - is stdout and
 
 int run_drift(TableArguments& a) {
     if (const std::string& plot = a.reports.path("--output"); plot.ends_with(".png"))
-        return fail(file_error({}, "the plot is a drawing, not a picture of pixels", "a name that ends in .svg",
-                               '"' + plot + '"', "browsers and most programs show SVG"));
+        return fail(file_error("file.suffix", {}, "the plot is a drawing, not a picture of pixels",
+                               "a name that ends in .svg", '"' + plot + '"', "browsers and most programs show SVG"));
     a.reports.check(library_files(a.kernels));
     if (a.kernels.names.empty() && a.kernels.libraries.empty())
         a.kernels.names = {"triangle.scanline-increments.float32", "triangle.scanline-increments", "triangle.bilinear",

@@ -32,16 +32,21 @@ std::string where_none_matches(const CaseJob& wanted, const std::vector<Witness>
 
 void check_arguments(const ReplayArguments& a) {
     if (a.file.empty() == a.job.family.empty())
-        throw Exception({.what = a.file.empty() ? "no case to replay" : "a witness file and a case",
+        throw Exception({.code = a.file.empty() ? ErrorCode("option.missing") : ErrorCode("option.conflict"),
+                         .what = a.file.empty() ? "no case to replay" : "a witness file and a case",
                          .expected = "either a witness file, or --family and --case"});
-    if (!a.job.family.empty() && !a.index) throw Exception({.what = "--family needs --case"});
+    if (!a.job.family.empty() && !a.index) throw Exception({.code = "option.missing", .what = "--family needs --case"});
     const std::string of_case = given_option(*a.app, {"--case", "--seed", "--simplex"});
     if (!a.file.empty() && !of_case.empty())
-        throw Exception({.what = of_case + " is for a case that is generated",
+        throw Exception({.code = "option.conflict",
+                         .what = of_case + " is for a case that is generated",
                          .expected = "a witness file without it, or --family and --case"});
     if (std::error_code ignored; std::filesystem::is_directory(a.file, ignored))
-        throw Exception(
-            {.what = "cannot read the witnesses", .file = a.file, .expected = "a file", .found = "a folder"});
+        throw Exception({.code = "file.unreadable",
+                         .what = "cannot read the witnesses",
+                         .file = a.file,
+                         .expected = "a file",
+                         .found = "a folder"});
 }
 
 /// Returns the witnesses of the file, or the one that --family and --case describe, made again.
@@ -52,7 +57,7 @@ std::vector<Witness> witnesses_of(ReplayArguments& a, const std::vector<Kernel>&
     const auto meshes = meshes_or_own(a.meshes);
     if (meshes) a.job.meshes = *meshes;
     Result<Witness> made = make_witness(a.job, kernels, read_audited);
-    if (!made && !meshes && made.error().what.starts_with("no mesh supplies")) throw Exception(meshes.error());
+    if (!made && !meshes && made.error().code == "witness.mesh") throw Exception(meshes.error());
     return {std::move(made).value()};
 }
 
@@ -75,7 +80,10 @@ int run_replay(ReplayArguments& a) {
         all_reproduced = false;
     }
     if (!any)
-        return fail({.what = "no witness matches", .file = a.file, .remedy = where_none_matches(a.job, witnesses)});
+        return fail({.code = "witness.unknown",
+                     .what = "no witness matches",
+                     .file = a.file,
+                     .remedy = where_none_matches(a.job, witnesses)});
     return all_reproduced ? exit_clean : exit_findings;
 }
 

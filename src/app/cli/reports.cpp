@@ -67,6 +67,7 @@ int Reports::write(Told told) {
         if (f.path.empty() || made == told.files.end()) continue;
         const Result<std::string> text = made->second();
         done.push_back(text ? write_output(f.path, *text) : Status(text.error()));
+        if (f.what == "--json" && done.back()) expect_json({});  // it stands there, whatever fails besides
     }
     if (!quiet_) tell_important(told.notes);
     if (table()) {

@@ -64,7 +64,8 @@ int run_sampling(Arguments<Job>& a) {
 int run_resample(Arguments<ResampleJob>& a) {
     const std::string of_picture = given_option(*a.app, figure_options);
     if (!of_picture.empty() && !is_figure_name(a.job.output))
-        return fail({.what = of_picture + " needs a picture",
+        return fail({.code = "option.unfit",
+                     .what = of_picture + " needs a picture",
                      .remedy = "leave it out, or use --output FILE.png, .svg or .pdf"});
     return run_sampling<ResampleJob, resample_files>(a);
 }

@@ -17,7 +17,7 @@ Result<Mesh> read_audited(const std::string& path, const ReadOptions& options) {
                        !base::file_exists(tetgen_files(path).front());
     if (other)
         return file_error(
-            path, "barycert-audit reads meshes of TetGen and Triangle alone", ".node and .ele",
+            "file.suffix", path, "barycert-audit reads meshes of TetGen and Triangle alone", ".node and .ele",
             suffix.empty() ? "no suffix" : '"' + suffix + '"',
             "`barycert audit` reads all formats; among the sources, build it: ./run barycert check " + path);
     return read_tetgen(path, options);

@@ -41,7 +41,8 @@ MeshSource source_of(const std::vector<NamedMesh>& meshes, bool certify, int thr
     tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
     for (const NamedMesh& named : meshes) {
         Mesh mesh = cells_of(named.path, threads, curved, read, notes);
-        if (mesh.cell_count() == 0) throw Exception({.what = "the mesh has no cells", .file = named.path});
+        if (mesh.cell_count() == 0)
+            throw Exception({.code = "mesh.empty", .what = "the mesh has no cells", .file = named.path});
         const Certificate certificate = certify ? certificate_of(mesh, threads) : Certificate();
         arena.execute([&] { source.add(named.name, std::move(mesh), certificate); });
     }
@@ -72,17 +73,19 @@ Result<PreparedAudit> prepare_audit(const AuditJob& job, const MeshReader& read)
 
 Result<Witness> make_witness(const CaseJob& job, const std::vector<Kernel>& kernels, const MeshReader& read) try {
     if (!job.reason.empty() && !finding_named(job.reason))
-        return unknown_name("job.reason of a case that is generated", "a class of finding", job.reason, {},
-                            "leave it out to see the answer whatever it is");
+        return about("job.reason",
+                     unknown_name("option.value", "job.reason of a case that is generated", "a class of finding",
+                                  job.reason, {}, "leave it out to see the answer whatever it is"));
     const std::vector<Family> families = choose_families({job.family}).value();
     if (families.size() != 1 || families.front().name != job.family)
-        return unknown_name("job.family must name one family", "", job.family, names_of(all_families()),
-                            "`barycert families` lists them");
+        return about("job.family", unknown_name("family.unknown", "job.family must name one family", "", job.family,
+                                                names_of(all_families()), "`barycert families` lists them"));
     const Family& family = families.front();
     std::optional<Simplex> simplex = simplex_named(job.simplex);
     if (!job.simplex.empty() && !simplex)
-        return unknown_name("unknown simplex", "segment, triangle, triangle3d or tetrahedron", job.simplex,
-                            {"segment", "triangle", "triangle3d", "tetrahedron"});
+        return about("job.simplex",
+                     unknown_name("option.value", "unknown simplex", "segment, triangle, triangle3d or tetrahedron",
+                                  job.simplex, {"segment", "triangle", "triangle3d", "tetrahedron"}));
     Witness w;
     if (!job.kernel.empty()) {
         const auto k = std::ranges::find_if(kernels, [&](const Kernel& x) {
@@ -90,22 +93,27 @@ Result<Witness> make_witness(const CaseJob& job, const std::vector<Kernel>& kern
                    base::glob_match(job.kernel, x.name);
         });
         if (k == kernels.end())
-            return unknown_name("no kernel of that name for the cases of that family", "", job.kernel,
-                                names_of(catalogue()), "`barycert kernels` lists them");
+            return about("job.kernel",
+                         unknown_name("kernel.unknown", "no kernel of that name for the cases of that family", "",
+                                      job.kernel, names_of(catalogue()), "`barycert kernels` lists them"));
         simplex = k->simplex;
         w.kernel = k->name;
     }
     if (!simplex && family.simplices.size() == 1) simplex = family.simplices.front();
     if (!simplex || !family.applies_to(*simplex))
-        return Error{.what = "the simplex is not determined: the family applies to several, or not to the one given",
-                     .remedy = "add job.simplex NAME or job.kernel NAME"};
+        return Error{.code = "option.missing",
+                     .what = "the simplex is not determined: the family applies to several, or not to the one given",
+                     .remedy = "add job.simplex NAME or job.kernel NAME",
+                     .subject = "job.simplex"};
     MeshSource meshes;
     if (family.needs_mesh) {
         Notes notes;
         meshes = source_of(job.meshes, false, 0, Curved::straight, read, notes);
         if (!meshes.supplies(*simplex))
-            return Error{.what = "no mesh supplies a " + std::string(name(*simplex)),
-                         .remedy = "name one with job.mesh"};
+            return Error{.code = "witness.mesh",
+                         .what = "no mesh supplies a " + std::string(name(*simplex)),
+                         .remedy = "name one with job.mesh",
+                         .subject = "job.mesh"};
     }
     w.reason = job.reason;
     make_case(family, *simplex, job.seed, job.index, meshes, &w);

@@ -1,6 +1,7 @@
 // A mesh checked, its measures written, and a repaired copy of it.
 
 #include <algorithm>
+#include <tuple>
 
 #include "app/jobs/job_files.hpp"
 #include "io/formats.hpp"
@@ -10,6 +11,7 @@ namespace barycert {
 namespace {
 
 using jobs::refuse;
+using jobs::refuse_member;
 
 /// Both are one way of writing.
 base::NamedFile copy_of(const CheckJob& job) {
@@ -18,40 +20,47 @@ base::NamedFile copy_of(const CheckJob& job) {
 }
 
 void check_job(const CheckJob& job) {
-    const auto [member, copy] = copy_of(job);
+    const base::NamedFile of_copy = copy_of(job);
+    const auto& [member, copy] = std::tie(of_copy.what, of_copy.path);
     if (job.measures == "-")
-        refuse("", "job.measures cannot write to stdout", "", "", "name a file: its data are binary");
+        refuse_member("option.value", "job.measures", "", "job.measures cannot write to stdout", "", "",
+                      "name a file: its data are binary");
     if (!job.measures.empty() && !base::has_suffix(job.measures, ".vtu") && !base::has_suffix(job.measures, ".vtp"))
-        refuse(job.measures, "job.measures writes VTU files, and of surfaces VTP files", "a name that ends in .vtu", "",
-               "choose another name; job.fix writes other formats");
+        refuse_member("file.suffix", "job.measures", job.measures,
+                      "job.measures writes VTU files, and of surfaces VTP files", "a name that ends in .vtu", "",
+                      "choose another name; job.fix writes other formats");
     if (copy == "-")
-        refuse("", member + " cannot write to stdout", "", "",
-               "name a file, .vtu .vtk .msh, or a stem of TetGen's files");
+        refuse_member("option.value", member, "", member + " cannot write to stdout", "", "",
+                      "name a file, .vtu .vtk .msh, or a stem of TetGen's files");
     if (!job.picture.empty() && !base::has_suffix(job.picture, ".png"))
-        refuse(job.picture, "unknown suffix of job.picture", ".png", "", "choose another name");
+        refuse_member("file.suffix", "job.picture", job.picture, "unknown suffix of job.picture", ".png", "",
+                      "choose another name");
     std::vector<base::NamedFile> plc, outputs{{"job.measures", job.measures}, {"job.picture", job.picture}};
     if (!copy.empty()) {
         const std::vector<std::string> written = written_mesh_files(copy).value();
         for (const std::string& path : written) outputs.push_back({member, path});
     }
     if (job.merge_within && job.fix.empty())
-        refuse("", "job.merge_within is for job.fix", "", "", "leave it out, or give job.fix FILE");
+        refuse_member("option.missing", "job.merge_within", "", "job.merge_within is for job.fix", "", "",
+                      "leave it out, or give job.fix FILE");
     if (job.vtk_data && job.measures.empty() && !copy.ends_with(".vtu") && !copy.ends_with(".vtk"))
-        refuse("", "job.vtk_data is for VTK's files", "", "",
-               "leave it out, or give job.measures FILE, or job.fix FILE.vtu");
+        refuse_member("option.unfit", "job.vtk_data", "", "job.vtk_data is for VTK's files", "", "",
+                      "leave it out, or give job.measures FILE, or job.fix FILE.vtu");
     if (!job.plc.empty()) plc = base::named_files("the PLC of job.plc", plc_files(job.plc));
     jobs::check_outputs(job, jobs::input_files(job, plc), std::move(outputs));
 }
 
 /// write_tetgen leaves no file of another mesh beside its own. Told before the work.
 void check_nothing_in_the_way(const CheckJob& job, const Mesh& mesh) {
-    const auto [member, path] = copy_of(job);
+    const base::NamedFile copy = copy_of(job);
+    const auto& [member, path] = std::tie(copy.what, copy.path);
     if (path.empty() || written_mesh_files(path).value().size() == 1) return;
     for (const auto& [suffix, written] :
          {std::pair(".face", !mesh.faces.empty()), {".neigh", !mesh.neighbours.empty()}}) {
         const std::string file = tetgen_stem(path) + suffix;
         if (!written && io::exists(file))
-            refuse(file, "a file of another mesh exists", "", "", "remove it, or give " + member + " another name");
+            refuse_member("file.overwrite", member, file, "a file of another mesh exists", "", "",
+                          "remove it, or give " + member + " another name");
     }
 }
 
@@ -98,7 +107,7 @@ void write_copy(const CheckJob& job, CheckOptions options, CheckedMesh& checked)
         .nodes = all, .merge_within = job.merge_within.value_or(0), .cells = all, .threads = options.threads};
     const Mesh copy = fix_mesh(checked.mesh, fix, fixed.done).value();
     if (copy.cell_count() == 0 && checked.mesh.cell_count() != 0)
-        refuse(fixed.file, "no copy is written, as it would have no cells", "", "",
+        refuse("mesh.fix-empty", fixed.file, "no copy is written, as it would have no cells", "", "",
                "look at the mesh, and where nodes were merged choose a smaller distance");
     fixed.notes = left_out_of(fixed.file, copy);
     if (checked.mesh.shapes.count() != 0)
@@ -113,7 +122,7 @@ void write_copy(const CheckJob& job, CheckOptions options, CheckedMesh& checked)
 
 void refuse_options_of_meshes(const CheckJob& job, const char* what) {
     const auto refuse_one = [&](bool given, const std::string& member) {
-        if (given) refuse(job.mesh, member + " is for meshes", "", what, "leave it out");
+        if (given) refuse_member("option.unfit", member, job.mesh, member + " is for meshes", "", what, "leave it out");
     };
     refuse_one(job.options.delaunay, "job.delaunay");
     refuse_one(io::is_surface_file(job.mesh) && job.step.made(), "job.step");
@@ -121,8 +130,8 @@ void refuse_options_of_meshes(const CheckJob& job, const char* what) {
     refuse_one(!copy_of(job).path.empty(), copy_of(job).what);
     refuse_one(job.plot, "job.plot");
     if (!job.measures.empty() && !base::has_suffix(job.measures, ".vtp"))
-        refuse(job.measures, "job.measures writes VTP files of surfaces", "a name that ends in .vtp", "",
-               "choose another name");
+        refuse_member("file.suffix", "job.measures", job.measures, "job.measures writes VTP files of surfaces",
+                      "a name that ends in .vtp", "", "choose another name");
 }
 
 /// The triangles with the sets of their defects, as cells of meshes have them, and the polygons that they are of.
@@ -180,10 +189,11 @@ Result<CheckedMesh> check_files(const CheckJob& job) try {
         return checked;
     }
     if (!job.picture.empty())
-        refuse(job.picture, "job.picture is of surfaces", "", "a mesh", "ParaView shows cells: job.measures FILE.vtu");
+        refuse_member("option.unfit", "job.picture", job.picture, "job.picture is of surfaces", "", "a mesh",
+                      "ParaView shows cells: job.measures FILE.vtu");
     if (base::has_suffix(job.measures, ".vtp"))
-        refuse(job.measures, "job.measures writes VTU files of meshes", "a name that ends in .vtu", "",
-               "choose another name");
+        refuse_member("file.suffix", "job.measures", job.measures, "job.measures writes VTU files of meshes",
+                      "a name that ends in .vtu", "", "choose another name");
     const Mesh& mesh = checked.mesh;
     if (job.curved == Curved::refuse) measure_curved(checked.mesh, job.mesh, job.curved).value();
     options.curved = job.curved;
@@ -191,8 +201,8 @@ Result<CheckedMesh> check_files(const CheckJob& job) try {
     Plc plc;
     if (!job.plc.empty()) {
         if (mesh.dimension == 2)
-            refuse(job.mesh, "job.plc needs a mesh of tetrahedra", "", "triangles in the plane",
-                   "leave the option out");
+            refuse_member("option.unfit", "job.plc", job.mesh, "job.plc needs a mesh of tetrahedra", "",
+                          "triangles in the plane", "leave the option out");
         plc = read_plc(job.plc).value();
         checked.mesh.notes.insert(checked.mesh.notes.end(), plc.notes.begin(), plc.notes.end());
         options.plc = &plc;

@@ -16,10 +16,12 @@ bool has(const std::vector<std::string>& names, const std::string& name) {
 
 constexpr const char* none = "none";
 
-[[noreturn]] void refuse_column(const VerifyJob& job, const std::string& what, const std::string& name,
-                                const std::vector<std::string>& there) {
-    refuse(job.results, what + ": the results have no such column", listed(there, base::quoted), base::quoted(name),
-           base::did_you_mean(name, there, "name one of these"));
+/// `member`: of the job, which names the column; `what`: what the column is of, in words.
+[[noreturn]] void refuse_column(const VerifyJob& job, const std::string& member, const std::string& what,
+                                const std::string& name, const std::vector<std::string>& there) {
+    refuse_member("column.unknown", member, job.results, what + ": the results have no such column",
+                  listed(there, base::quoted), base::quoted(name),
+                  base::did_you_mean(name, there, "name one of these"));
 }
 
 TableField columns_of(const Mesh& mesh, const FieldChoice& choice) {
@@ -45,14 +47,14 @@ void check_named(const VerifyJob& job, const Mesh& mesh, const std::vector<Field
     const std::vector<std::string> known = column_names(all);
     for (const auto& [value, column] : job.values) {
         if (!has(known, value))
-            refuse("", "job.values: the mesh has no such value",
-                   listed(known, base::quoted, "no field at all: give one with job.field_files"), base::quoted(value),
-                   base::did_you_mean(value, known));
-        if (!has(there, column)) refuse_column(job, "job.values", column, there);
+            refuse_member("field.unknown", "job.values", "", "job.values: the mesh has no such value",
+                          listed(known, base::quoted, "no field at all: give one with job.field_files"),
+                          base::quoted(value), base::did_you_mean(value, known));
+        if (!has(there, column)) refuse_column(job, "job.values", "job.values", column, there);
     }
     for (const auto& [member, column] :
          {std::pair("job.cell_column", job.cell_column), {"job.mask_column", job.mask_column}}) {
-        if (!column.empty() && column != none && !has(there, column)) refuse_column(job, member, column, there);
+        if (!column.empty() && column != none && !has(there, column)) refuse_column(job, member, member, column, there);
     }
 }
 
@@ -79,10 +81,11 @@ std::vector<double> numbers_of(const std::vector<Column>& columns, const std::st
         if (text.empty()) x = std::numeric_limits<double>::quiet_NaN();
         if (mask && text.size() == 1 && (text[0] == '\0' || text[0] == '\1')) x = text[0];
         if (!x)
-            refuse(job.results,
-                   "row " + std::to_string(first_row + out.size()) + " (from 0), column " + base::quoted(column.name),
-                   "a number, nan, or nothing", base::quoted(text),
-                   "choose the columns to compare: job.fields, job.values, job.cell_column");
+            refuse_member(
+                "file.number", "job.values", job.results,
+                "row " + std::to_string(first_row + out.size()) + " (from 0), column " + base::quoted(column.name),
+                "a number, nan, or nothing", base::quoted(text),
+                "choose the columns to compare: job.fields, job.values, job.cell_column");
         out.push_back(*x);
     }
     return out;
@@ -123,7 +126,7 @@ ClaimedColumns claimed_columns(const VerifyJob& job, const Mesh& mesh, const std
             out.fields.push_back(choice);
             out.values.insert(out.values.end(), columns.begin(), columns.end());
         } else if (!job.fields.empty()) {
-            refuse_column(job, "field " + base::quoted(own.name), own.name, there);
+            refuse_column(job, "job.fields", "field " + base::quoted(own.name), own.name, there);
         } else {
             notes.push_back(
                 {Note::Kind::left_out,
@@ -142,12 +145,13 @@ ClaimedColumns claimed_columns(const VerifyJob& job, const Mesh& mesh, const std
                          job.results});
     if (!used.empty()) return out;
     const auto name = [](const FieldChoice& choice) { return base::quoted(choice.field->name); };
-    refuse(job.results, "the results have no column to compare",
-           "columns named as fields of the mesh (" + listed(fields, name, "it has none") +
-               "), `cell` or vtkValidPointMask",
-           listed(there, base::quoted),
-           "say which column is which: job.values FIELD=COLUMN, job.cell_column NAME; fields that are not in the mesh "
-           "file: job.field_files NAME=FILE");
+    refuse_member(
+        "column.unknown", "job.values", job.results, "the results have no column to compare",
+        "columns named as fields of the mesh (" + listed(fields, name, "it has none") +
+            "), `cell` or vtkValidPointMask",
+        listed(there, base::quoted),
+        "say which column is which: job.values FIELD=COLUMN, job.cell_column NAME; fields that are not in the mesh "
+        "file: job.field_files NAME=FILE");
 }
 
 Claims claims_of(const ClaimedColumns& which, const std::vector<Column>& columns, const Mesh& mesh,
@@ -164,8 +168,9 @@ Claims claims_of(const ClaimedColumns& which, const std::vector<Column>& columns
         for (std::size_t i = 0; i < rows; ++i) {
             const double x = numbers[i];
             if (!std::isnan(x) && (std::floor(x) != x || std::fabs(x) > 0x1p53))
-                refuse(job.results, "the cell of row " + std::to_string(first_row + i) + " (from 0)", "an integer",
-                       base::shortest(x), "name the column of cells: job.cell_column NAME, or none");
+                refuse_member("file.number", "job.cell_column", job.results,
+                              "the cell of row " + std::to_string(first_row + i) + " (from 0)", "an integer",
+                              base::shortest(x), "name the column of cells: job.cell_column NAME, or none");
             const std::int64_t number = std::isnan(x) ? -1 : static_cast<std::int64_t>(x);
             out.cells.push_back(number < 0 ? -1 : index_of(number - job.cell_base, mesh));
         }

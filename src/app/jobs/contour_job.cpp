@@ -21,6 +21,7 @@ namespace {
 
 using base::cross, base::dot, base::shortest;
 using jobs::refuse;
+using jobs::refuse_member;
 using jobs::Stopwatch;
 using jobs::tell_stage;
 using Vector = std::array<double, 3>;
@@ -31,23 +32,29 @@ bool is_picture(const ContourJob& job) {
 
 void check_job(const ContourJob& job) {
     if (job.value.has_value() == job.plane.has_value())
-        refuse("", "what to cut at", "a value or a plane", job.value ? "both" : "neither");
+        refuse(job.value ? ErrorCode("option.conflict") : ErrorCode("option.missing"), "", "what to cut at",
+               "a value or a plane", job.value ? "both" : "neither");
     const bool picture = is_picture(job);
     if (!picture && !base::has_one_of(job.output, {".vtp", ".ply", ".off"}))
         jobs::refuse_output(job.output, ".vtp, .ply, .off, .png, .svg or .pdf");
     for (const auto& [member, given] :
          {std::pair("job.colours", !job.colours.empty()), {"job.range", !!job.figure.range}}) {
         if (!picture && given)
-            refuse("", std::string(member) + " is for pictures", "", "", "leave it out, or name a .png file");
+            refuse_member("option.unfit", std::string(member), "", std::string(member) + " is for pictures", "", "",
+                          "leave it out, or name a .png file");
     }
     if (job.field.empty() && (picture || job.value))
-        refuse("", picture ? "a picture shows a field" : "which field has the value", "job.field NAME", "none");
+        refuse_member("option.missing", "job.field", "",
+                      picture ? "a picture shows a field" : "which field has the value", "job.field NAME", "none");
     if (job.plane && !picture && !job.field.empty() && !job.fields.empty())
-        refuse("", "job.field and job.fields", "one of them", "", "job.fields names several");
+        refuse_member("option.conflict", "job.fields", "", "job.field and job.fields", "one of them", "",
+                      "job.fields names several");
     if (picture && !job.fields.empty())
-        refuse("", "job.fields cannot be combined with a picture", "", "", "job.field names what it shows");
+        refuse_member("option.unfit", "job.fields", "", "job.fields cannot be combined with a picture", "", "",
+                      "job.field names what it shows");
     jobs::check_vtk_data(job.vtk_data, job.output);
-    if (job.width < 1 || job.width > 1000000) refuse("", "job.width", "1 to 1000000", std::to_string(job.width));
+    if (job.width < 1 || job.width > 1000000)
+        refuse_member("option.value", "job.width", "", "job.width", "1 to 1000000", std::to_string(job.width));
     jobs::check_files(job, {}, {{"job.output", job.output}});
 }
 
@@ -108,16 +115,19 @@ Result<PixelGrid> pixels_over(const Plane& plane, const std::vector<double>& poi
     const auto& [low, high] = box;
     const double across = high[0] - low[0], tall = high[1] - low[1];
     if (!(across > 0) || !(tall > 0) || !std::isfinite(across) || !std::isfinite(tall))
-        return file_error("", "the section has no area", "a plane that goes through the mesh",
-                          points.empty() ? "no cell on both sides of it" : "a point or a line",
-                          "choose another offset");
+        return about(
+            "job.plane",
+            file_error("surface.empty", "", "the section has no area", "a plane that goes through the mesh",
+                       points.empty() ? "no cell on both sides of it" : "a point or a line", "choose another offset"));
     PixelGrid grid;
     grid.width = width;
     grid.pixel = across / static_cast<double>(width);
     const double lines = std::max(1.0, std::round(tall / grid.pixel));
     if (!(lines * static_cast<double>(width) <= static_cast<double>(max_pixels)) || !(grid.pixel > 0))
-        return file_error("", "the picture would be too large", "at most " + std::to_string(max_pixels) + " pixels",
-                          std::to_string(width) + " by " + base::shortest(lines), "choose a smaller job.width");
+        return about("job.width",
+                     file_error("picture.too-large", "", "the picture would be too large",
+                                "at most " + std::to_string(max_pixels) + " pixels",
+                                std::to_string(width) + " by " + base::shortest(lines), "choose a smaller job.width"));
     grid.height = static_cast<std::int64_t>(lines);
     // Lines are centred in the box.
     const double first[2] = {low[0] + 0.5 * grid.pixel, low[1] + 0.5 * (tall - (lines - 1) * grid.pixel)};
@@ -143,14 +153,16 @@ public:
         report_.plane = job_.plane;
         const bool picture = is_picture(job_);
         if (job_.plane && mesh_.dimension == 2)
-            refuse(job_.mesh, "a plane cuts meshes of tetrahedra", "", "triangles in the plane",
+            refuse("mesh.dimension", job_.mesh, "a plane cuts meshes of tetrahedra", "", "triangles in the plane",
                    "draw a mesh of triangles by `" + job_.program + " resample --grid`");
         if (picture && job_.value && mesh_.dimension == 2)
-            refuse(job_.output, "iso-lines cannot be written as a picture", ".vtp or .ply", "", "choose another name");
+            refuse_member("option.unfit", "job.output", job_.output, "iso-lines cannot be written as a picture",
+                          ".vtp or .ply", "", "choose another name");
         const bool exact = picture && job_.plane && (job_.figure.samples == 1 || is_computed_at_points());
         if (exact && job_.edges)
-            refuse("", "edges of cells are drawn over triangles, not over values at pixels", "more than one sample",
-                   "one, or a field that is computed at each point");
+            refuse_member("option.unfit", "job.edges", "",
+                          "edges of cells are drawn over triangles, not over values at pixels", "more than one sample",
+                          "one, or a field that is computed at each point");
         Cut cut = exact ? cut_plane({.threads = job_.threads}) : cut_with_fields();
         report_.counts = cut.counts;
         report_.points = cut.surface.point_count();
@@ -207,8 +219,9 @@ private:
         const FieldChoice column = jobs::field_of_numbers(mesh_, job_.field, made_, report_.notes);
         const Field& field = *column.field;
         if (column.of_cells)
-            refuse("", "field \"" + job_.field + "\" is one of cells", "a field of nodes", "a number for each cell",
-                   "a field of cells jumps from cell to cell: there is no surface on which it has a value");
+            refuse_member("field.location", "job.field", "", "field \"" + job_.field + "\" is one of cells",
+                          "a field of nodes", "a number for each cell",
+                          "a field of cells jumps from cell to cell: there is no surface on which it has a value");
         tell_stage(job_, "cutting");
         const auto value = [&](std::size_t i) { return field.data[i]; };
         set_range(mesh_, value, report_);
@@ -277,9 +290,9 @@ private:
         report_.fields = {job_.field};
         if (exact) return draw_values(pixels, frame, options);
         if (std::max(pixels.width, pixels.height) > max_raster_side)
-            refuse(job_.output, "the picture would be too large",
-                   fmt::format("at most {} pixels a side", max_raster_side),
-                   fmt::format("{} by {}", pixels.width, pixels.height), "choose a smaller job.width");
+            refuse_member("picture.too-large", "job.width", job_.output, "the picture would be too large",
+                          fmt::format("at most {} pixels a side", max_raster_side),
+                          fmt::format("{} by {}", pixels.width, pixels.height), "choose a smaller job.width");
         options.window = {static_cast<std::int32_t>(pixels.width), static_cast<std::int32_t>(pixels.height)};
         tell_stage(job_, "drawing");
         jobs::MeshFigure figure(mesh_, show_, job_.field, job_.threads, report_.notes);
@@ -292,9 +305,10 @@ private:
     }
 
     [[noreturn]] void refuse_empty(const PixelGrid& pixels) const {
-        refuse(job_.output, "nothing to draw", "a pixel whose middle is in the mesh, where the field is finite",
-               fmt::format("{} x {} pixels without one", pixels.width, pixels.height),
-               "give more pixels, job.width N, or another field");
+        refuse_member("picture.empty", "job.width", job_.output, "nothing to draw",
+                      "a pixel whose middle is in the mesh, where the field is finite",
+                      fmt::format("{} x {} pixels without one", pixels.width, pixels.height),
+                      "give more pixels, job.width N, or another field");
     }
 
     /// The exact values at the middles of pixels.
@@ -325,9 +339,9 @@ private:
 
     void draw_view(Surface surface) {
         if (surface.cells.empty())
-            refuse(job_.output, "the iso-surface is empty",
-                   fmt::format("a value from {} to {}", shortest(report_.low), shortest(report_.high)),
-                   shortest(*job_.value), "choose another value");
+            refuse_member("surface.empty", "job.value", job_.output, "the iso-surface is empty",
+                          fmt::format("a value from {} to {}", shortest(report_.low), shortest(report_.high)),
+                          shortest(*job_.value), "choose another value");
         Stopwatch watch;
         tell_stage(job_, "drawing");
         jobs::MeshFigure figure(mesh_, show_, job_.colours, job_.threads, report_.notes);

@@ -23,17 +23,19 @@ bool is_of_cells(const FieldFile& file, std::size_t rows, std::size_t nodes, std
     const bool fits_cells = rows == cells && file.of != FieldFile::Of::points;
     if (fits_nodes != fits_cells) return fits_cells;
     if (fits_nodes)
-        refuse(file.path, "rows of field \"" + file.name + "\" could belong to nodes or to cells", "",
-               "a mesh of " + std::to_string(nodes) + " nodes and the same number of cells", say_which);
+        refuse_member("field.ambiguous", "job.field_files", file.path,
+                      "rows of field \"" + file.name + "\" could belong to nodes or to cells", "",
+                      "a mesh of " + std::to_string(nodes) + " nodes and the same number of cells", say_which);
     std::string expected = counted(nodes, "row") + ", one for each node";
     if (file.of == FieldFile::Of::cells) expected = counted(cells, "row") + ", one for each cell";
     if (file.of == FieldFile::Of::either) expected += ", or " + std::to_string(cells) + ", one for each cell";
-    refuse(file.path, "field \"" + file.name + '"', expected, counted(rows, "row"), "use a file made for this mesh");
+    refuse_member("field.size", "job.field_files", file.path, "field \"" + file.name + '"', expected,
+                  counted(rows, "row"), "use a file made for this mesh");
 }
 
 [[noreturn]] void refuse_second(const FieldFile& file) {
-    refuse(file.path, "a field of this name exists already", "", '"' + file.name + '"',
-           "give it another name: job.field_files OTHER=" + file.path);
+    refuse_member("field.duplicate", "job.field_files", file.path, "a field of this name exists already", "",
+                  '"' + file.name + '"', "give it another name: job.field_files OTHER=" + file.path);
 }
 
 std::string names_of(const std::vector<Field>& fields) {
@@ -80,14 +82,17 @@ Field array_named(const auto& from, FieldFile& file) {
     const Field* const of_cells =
         file.of == FieldFile::Of::points ? nullptr : sample::field_named(from.cell_fields, file.column);
     if (of_nodes != nullptr && of_cells != nullptr)
-        refuse(file.path, "there is an array of nodes and one of cells of that name", "", base::quoted(file.column),
-               say_which);
+        refuse_member("field.ambiguous", "job.field_files", file.path,
+                      "there is an array of nodes and one of cells of that name", "", base::quoted(file.column),
+                      say_which);
     if (of_nodes == nullptr && of_cells == nullptr)
-        refuse(file.path, file.column.empty() ? "it is not said which array of the file is meant" : "no such array",
-               file.column.empty() ? "" : base::quoted(file.column),
-               "of nodes " + names_of(from.point_fields) + "; of cells " + names_of(from.cell_fields),
-               base::did_you_mean(file.column, all,
-                                  "name one: job.field_files " + file.name + "=" + file.path + ":ARRAY"));
+        refuse_member(file.column.empty() ? ErrorCode("field.ambiguous") : ErrorCode("field.unknown"),
+                      "job.field_files", file.path,
+                      file.column.empty() ? "it is not said which array of the file is meant" : "no such array",
+                      file.column.empty() ? "" : base::quoted(file.column),
+                      "of nodes " + names_of(from.point_fields) + "; of cells " + names_of(from.cell_fields),
+                      base::did_you_mean(file.column, all,
+                                         "name one: job.field_files " + file.name + "=" + file.path + ":ARRAY"));
     file.of = of_nodes != nullptr ? FieldFile::Of::points : FieldFile::Of::cells;
     Field field = of_nodes != nullptr ? *of_nodes : *of_cells;
     field.name = file.name;
@@ -144,13 +149,14 @@ const Column* label_named(const Mesh& mesh, std::string_view name) {
 
 void check_label(const Mesh& mesh, const Column& label) {
     if (label.size() != mesh.cell_count())
-        refuse("", "a label of cells does not fit the mesh", std::to_string(mesh.cell_count()) + " values",
+        refuse("field.size", "", "a label of cells does not fit the mesh",
+               std::to_string(mesh.cell_count()) + " values",
                std::to_string(label.size()) + " of " + base::quoted(label.name));
     const auto* const integers = std::get_if<std::vector<std::int64_t>>(&label.values);
     if (integers != nullptr && std::find(integers->begin(), integers->end(), mesh::no_label) != integers->end())
-        refuse("", "a label of cells has the integer that stands for points outside",
-               "integers above " + std::to_string(mesh::no_label), base::quoted(label.name),
-               "leave it out of job.fields");
+        refuse_member("field.type", "job.fields", "", "a label of cells has the integer that stands for points outside",
+                      "integers above " + std::to_string(mesh::no_label), base::quoted(label.name),
+                      "leave it out of job.fields");
 }
 
 }  // namespace
@@ -290,8 +296,8 @@ std::vector<const Column*> take_labels(const Mesh& mesh, std::vector<std::string
     });
     for (auto label = taken.begin(); label != taken.end(); ++label) {
         if (std::find(taken.begin(), label, *label) != label)
-            refuse("", "a label of cells is named twice", "", base::quoted((*label)->name),
-                   "name it once in job.fields");
+            refuse_member("field.duplicate", "job.fields", "", "a label of cells is named twice", "",
+                          base::quoted((*label)->name), "name it once in job.fields");
         check_label(mesh, **label);
     }
     return taken;

@@ -119,7 +119,7 @@ void note_cell_fields(SampledMesh& mesh, bool of_series) {
                                  counted(names.size(), "field") +
                                      " of cells into values at nodes, each that of the cell that owns the node: " +
                                      listed(names, base::quoted) + without,
-                                 mesh.job.mesh, true});
+                                 mesh.job.mesh, true, of_series ? "job.step" : ""});
 }
 
 Sink with_integrals(SampledMesh& mesh, const Mesh& other, const std::function<Sink()>& open) {

@@ -19,13 +19,13 @@ void check_steps(const SamplingJob& job, const std::vector<Step>& steps) {
     for (const FieldFile& file : job.field_files) names.insert(file.name);
     for (const FieldFile& file : job.series) {
         if (!names.insert(file.name).second)
-            refuse(file.path, "a field of this name exists already", "", '"' + file.name + '"',
-                   "give it another name: job.field OTHER@" + file.path);
+            refuse_member("field.duplicate", "job.field", file.path, "a field of this name exists already", "",
+                          '"' + file.name + '"', "give it another name: job.field OTHER@" + file.path);
     }
     if (!has_step_place(job.output) && steps.size() > most_steps_of_columns)
-        refuse(job.output, "too many steps for columns of one output",
-               "at most " + std::to_string(most_steps_of_columns), std::to_string(steps.size()),
-               "write each step to a file of its own: job.output 'rows-{step}.npy'");
+        refuse_member("option.value", "job.output", job.output, "too many steps for columns of one output",
+                      "at most " + std::to_string(most_steps_of_columns), std::to_string(steps.size()),
+                      "write each step to a file of its own: job.output 'rows-{step}.npy'");
 }
 
 void add_input(std::vector<base::NamedFile>& inputs, const std::string& what, const std::string& path) {
@@ -53,9 +53,11 @@ void check_step_outputs(const std::vector<base::NamedFile>& inputs, const std::s
     for (const Step& step : steps) {
         const std::string path = output_of_step(output, step);
         if (!names.insert(path).second)
-            refuse(path, "two steps have the same output", "", "", "put {step} into the name of job.output");
+            refuse_member("file.overwrite", "job.output", path, "two steps have the same output", "", "",
+                          "put {step} into the name of job.output");
         if (const std::string* const before = add(path, "job.output of another step"))
-            refuse(path, "job.output would overwrite " + *before, "", "", "choose another name for the output");
+            refuse_member("file.overwrite", "job.output", path, "job.output would overwrite " + *before, "", "",
+                          "choose another name for the output");
     }
 }
 
@@ -115,8 +117,7 @@ void check_files(const MeshJob& job, std::vector<base::NamedFile> more_inputs, s
                  const std::vector<base::NamedFile>& unread) {
     std::vector<base::NamedFile> inputs = input_files(job, more_inputs);
     inputs.insert(inputs.end(), unread.begin(), unread.end());
-    // The reader of meshes has hints at what may be meant: it tells of those that cannot be read.
-    std::erase_if(more_inputs, [](const base::NamedFile& f) { return f.what.starts_with("the mesh"); });
+    std::erase_if(more_inputs, &base::NamedFile::of_mesh);
     for (const FieldFile& f : job.field_files) more_inputs.push_back({"field " + f.name, f.path});
     base::check_inputs(more_inputs).value();
     check_outputs(job, inputs, std::move(outputs));
@@ -125,7 +126,8 @@ void check_files(const MeshJob& job, std::vector<base::NamedFile> more_inputs, s
 void check_files(const SamplingJob& job, const std::vector<Step>& steps, std::vector<base::NamedFile> more_inputs,
                  std::vector<base::NamedFile> outputs) {
     if (!job.weights.empty() && !base::has_suffix(job.weights, ".npz"))
-        refuse(job.weights, "unknown suffix of job.weights", ".npz", "", "choose another name");
+        refuse_member("file.suffix", "job.weights", job.weights, "unknown suffix of job.weights", ".npz", "",
+                      "choose another name");
     check_vtk_data(job.vtk_data, job.output);
     std::vector<base::NamedFile> of_steps;
     add_fields_to(of_steps, job.series);
@@ -148,15 +150,16 @@ void check_vtk_data(std::optional<VtkData> data, const std::string& path) {
     if (!data) return;
     const bool legacy = base::has_suffix(path, ".vtk");
     if (legacy && *data != VtkData::raw && *data != VtkData::ascii)
-        refuse(path, "job.vtk_data: legacy files of VTK know no compression", "raw or ascii", std::string(name(*data)),
-               "name a .vtu file");
+        refuse_member("option.unfit", "job.vtk_data", path, "job.vtk_data: legacy files of VTK know no compression",
+                      "raw or ascii", std::string(name(*data)), "name a .vtu file");
     if (!legacy && !base::has_one_of(path, {".vtu", ".vtp", ".vti"}))
-        refuse(path, "job.vtk_data is for files of VTK", ".vtu, .vtk, .vtp or .vti", "",
-               "leave it out, or name such a file");
+        refuse_member("option.unfit", "job.vtk_data", path, "job.vtk_data is for files of VTK",
+                      ".vtu, .vtk, .vtp or .vti", "", "leave it out, or name such a file");
 }
 
 void refuse_output(const std::string& path, const std::string& expected) {
-    throw Exception(io::unknown_suffix(path, "unknown suffix of job.output", expected, "choose another name"));
+    throw Exception(
+        about("job.output", io::unknown_suffix(path, "unknown suffix of job.output", expected, "choose another name")));
 }
 
 }  // namespace barycert::jobs

@@ -63,8 +63,14 @@ struct ThreadLimit {
 
 /// Throws a file_error of these parts: in the order of the message; empty ones are left out.
 template <class... Parts>
-[[noreturn]] void refuse(Parts&&... parts) {
-    throw Exception(file_error(std::forward<Parts>(parts)...));
+[[noreturn]] void refuse(ErrorCode code, Parts&&... parts) {
+    throw Exception(file_error(code, std::forward<Parts>(parts)...));
+}
+
+/// The same about a member of the job, as "job.points". Texts that name members are those of such an error.
+template <class... Parts>
+[[noreturn]] void refuse_member(ErrorCode code, std::string member, Parts&&... parts) {
+    throw Exception(about(std::move(member), file_error(code, std::forward<Parts>(parts)...)));
 }
 
 /// text(item) of each, with commas between them.

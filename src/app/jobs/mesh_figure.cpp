@@ -145,7 +145,8 @@ void MeshFigure::choose_cells() {
     std::vector<Mesh::Index> cells;
     for (std::size_t i = 0; i < kept.size(); ++i)
         if (kept[i]) cells.push_back(static_cast<Mesh::Index>(i));
-    if (cells.empty()) refuse("", "no cell is left to draw", "a threshold or box that leaves some", "none");
+    if (cells.empty())
+        refuse("picture.empty", "", "no cell is left to draw", "a threshold or box that leaves some", "none");
     mesh::Submesh part = mesh::part_of(mesh, std::move(cells));
     chosen_ = std::move(part.mesh);
     nodes_ = part.nodes;
@@ -166,7 +167,7 @@ CutOptions MeshFigure::carried() {
 
 viewer::PageScene MeshFigure::page(const FigureOptions& options) const {
     if (!figure_.arrows.empty() || !figure_.points.empty() || options.labels)
-        refuse("", "pages have no arrows, points or labels", "surfaces and lines", "",
+        refuse("option.unfit", "", "pages have no arrows, points or labels", "surfaces and lines", "",
                "name a .png, .svg or .pdf file");
     viewer::PageScene scene{mesh_, drawn_, {}, {}, shown_.field, nodes_, figure(options)};
     const auto add = [](std::vector<const Field*>& to, const std::vector<Field>& fields) {
@@ -199,11 +200,13 @@ void MeshFigure::add_mesh() {
     for (const auto& [given, what] : {std::pair(show_.plane.has_value(), "a plane that cuts open"),
                                       {!show_.slices.empty(), "a slice"},
                                       {!show_.iso.empty(), "an iso-surface"}})
-        if (given && plane) refuse("", std::string(what) + " is of meshes in space", "", "triangles in the plane");
+        if (given && plane)
+            refuse("option.unfit", "", std::string(what) + " is of meshes in space", "", "triangles in the plane");
     for (const Plane& cut : show_.slices) add_cut(surface::section(*mesh_, cut, options).value().surface, "a slice");
     if (!show_.iso.empty()) {
         const FieldChoice of = field_of_numbers(*mesh_, show_.iso_field, made_, notes_);
-        if (of.of_cells) refuse("", "field \"" + show_.iso_field + "\" is one of cells", "a field of nodes", "");
+        if (of.of_cells)
+            refuse("field.location", "", "field \"" + show_.iso_field + "\" is one of cells", "a field of nodes", "");
         CutOptions carries = options;
         if (colours_.empty()) {
             shown_ = of;
@@ -215,8 +218,8 @@ void MeshFigure::add_mesh() {
     // Where something else is to be seen, the surface would hide it.
     const bool others = !show_.slices.empty() || !show_.iso.empty() || !show_.marked.empty();
     if (others && show_.plane)
-        refuse("", "cutting open by a plane is for the boundary", "", "slices, iso-surfaces or marked cells",
-               "leave one of them out");
+        refuse("option.conflict", "", "cutting open by a plane is for the boundary", "",
+               "slices, iso-surfaces or marked cells", "leave one of them out");
     if (show_.surface && !others) {
         Surface whole = plane ? cells_of(*mesh_, options) : boundary(*mesh_, options).value();
         add(show_.plane ? behind(whole, *show_.plane) : std::move(whole));
@@ -227,12 +230,12 @@ void MeshFigure::add_mesh() {
     if (!show_.points.empty()) add_points();
     if (show_.outline || !show_.marked.empty()) add_outline();
     if (figure_.surfaces.empty() && figure_.lines.empty() && figure_.arrows.empty() && figure_.points.empty())
-        refuse("", "nothing to draw", "a surface, lines, arrows or points", "none of these");
+        refuse("picture.empty", "", "nothing to draw", "a surface, lines, arrows or points", "none of these");
 }
 
 void MeshFigure::add_cut(Surface surface, const char* what) {
     if (surface.cells.empty())
-        refuse("", std::string(what) + " is empty", "one that cuts cells", "none", "choose another");
+        refuse("picture.empty", "", std::string(what) + " is empty", "one that cuts cells", "none", "choose another");
     add(std::move(surface));
 }
 
@@ -314,10 +317,11 @@ void MeshFigure::add_marked() {
         cells.push_back(i);
     }
     if (!missing.empty())
-        refuse("", "no such cell to mark", "numbers of cells that are drawn, as they are in the file, from 0",
-               std::to_string(*missing.begin()));
+        refuse("option.value", "", "no such cell to mark",
+               "numbers of cells that are drawn, as they are in the file, from 0", std::to_string(*missing.begin()));
     if (!colours_.empty() && figure_.surfaces.empty())
-        refuse("", "nothing to colour by job.field", "a surface beside marked cells, which are red", "none");
+        refuse_member("option.unfit", "job.field", "", "nothing to colour by job.field",
+                      "a surface beside marked cells, which are red", "none");
     Surface& surface = surfaces_.emplace_back(surface::facets_of(*mesh_, std::move(cells)));
     figure_.surfaces.push_back({.points = surface.points, .triangles = surface.cells, .colour = marked_red});
     drawn_.push_back({&surface, marked_red});
@@ -332,7 +336,7 @@ void MeshFigure::add_arrows() {
         return static_cast<std::size_t>(f.components) == d ? f.name : std::string();
     });
     if (found == mesh_->point_fields.end() || static_cast<std::size_t>(found->components) != d)
-        refuse("", "arrows are of a field of nodes",
+        refuse("field.location", "", "arrows are of a field of nodes",
                fmt::format("one of {} components, of which there is: {}", d, vectors.empty() ? "none" : vectors),
                '"' + show_.arrows + '"');
     std::array<base::Range, 3> all{};
@@ -359,7 +363,7 @@ void MeshFigure::add_arrows() {
     }
     const bool by_value = figure_.surfaces.empty() && shown_.field != nullptr;
     if (by_value && shown_.of_cells)
-        refuse("", "arrows have colours of a field of nodes", "one", base::quoted(colours_));
+        refuse("field.location", "", "arrows have colours of a field of nodes", "one", base::quoted(colours_));
     std::vector<double>&points = numbers_.emplace_back(), &numbers = numbers_.emplace_back(),
     &values = numbers_.emplace_back();
     for (const auto& [box, node] : boxes) {

@@ -68,17 +68,20 @@ public:
             before_.assign(at.begin(), at.end());
         }
         if (values_.size() > most)
-            refuse(job_.plot, "too many values for a plot", std::to_string(most), "more",
-                   "choose fewer points or fields");
+            refuse_member("picture.too-large", "job.plot", job_.plot, "too many values for a plot",
+                          std::to_string(most), "more", "choose fewer points or fields");
     }
 
     Status write() const {
         const bool over_time = !report_.steps.empty();
         const std::vector<Curve> all = over_time ? over_steps() : along_the_way();
-        if (all.empty() || way_.empty()) refuse(job_.plot, "nothing to plot", "fields and points", "none of these");
+        if (all.empty() || way_.empty())
+            refuse_member("picture.empty", "job.plot", job_.plot, "nothing to plot", "fields and points",
+                          "none of these");
         if (all.size() > draw::max_curves)
-            refuse(job_.plot, "too many curves for a plot", fmt::format("at most {}", draw::max_curves),
-                   std::to_string(all.size()), over_time ? "choose fewer points or fields" : "name some by job.fields");
+            refuse_member("picture.too-large", "job.plot", job_.plot, "too many curves for a plot",
+                          fmt::format("at most {}", draw::max_curves), std::to_string(all.size()),
+                          over_time ? "choose fewer points or fields" : "name some by job.fields");
         double beside = 0;  // the names in the legend
         for (const Curve& c : all) beside = std::max(beside, draw::text_width(c.name, 13));
         Plot plot(job_.figure.title.empty() ? job_.mesh : job_.figure.title, std::max(640.0, 476 + beside), 400,

@@ -12,6 +12,7 @@ namespace barycert {
 namespace {
 
 using jobs::refuse;
+using jobs::refuse_member;
 
 void set_texture(const RenderJob& job, Scene& scene) {
     scene.texture = Texture{four_colours(), job.wrap, job.filter};
@@ -157,9 +158,10 @@ Scene small_picture(const RenderJob& job) {
 void draw_mesh(const RenderJob& job, RenderReport& report) {
     const jobs::ThreadLimit limit(job.threads);
     const Mesh mesh = jobs::open_mesh_with_fields(job, job.threads, report);
-    if (mesh.cells.empty()) refuse(job.mesh, "the mesh has no cells", "", "", "there is nothing to draw");
+    if (mesh.cells.empty()) refuse("mesh.empty", job.mesh, "the mesh has no cells", "", "", "there is nothing to draw");
     if (job.figure.scale > 0 && mesh.dimension == 3)
-        refuse(job.mesh, "job.scale is for meshes in the plane", "", "tetrahedra in space", "use job.size");
+        refuse_member("option.unfit", "job.scale", job.mesh, "job.scale is for meshes in the plane", "",
+                      "tetrahedra in space", "use job.size");
     report.input = job.mesh;
     report.samples = job.figure.samples;
     report.method = job.figure.method;
@@ -170,7 +172,8 @@ void draw_mesh(const RenderJob& job, RenderReport& report) {
         if (!job.points.empty()) {
             const auto points = open_points(job.points, mesh.dimension, {.columns = job.columns}).value();
             while (points->read(1U << 20, show.points).value() != 0) continue;
-            if (show.points.empty()) refuse(job.points, "there are no points to draw", "", "");
+            if (show.points.empty())
+                refuse_member("picture.empty", "job.points", job.points, "there are no points to draw", "", "");
         }
         jobs::MeshFigure figure(mesh, show, job.field, job.threads, report.notes);
         jobs::tell_stage(job, "drawing");

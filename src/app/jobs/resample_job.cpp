@@ -12,7 +12,7 @@
 namespace barycert {
 namespace {
 
-using jobs::refuse;
+using jobs::refuse_member;
 using jobs::SampledMesh;
 using jobs::Sink;
 using jobs::Stopwatch;
@@ -21,8 +21,8 @@ static_assert(std::endian::native == std::endian::little, "NPY files are written
 
 [[noreturn]] void refuse_label(const ColumnFormat& column, const std::string& path, const char* expected,
                                const char* remedy) {
-    refuse(path, "the format has no place for a label of cells", expected,
-           base::quoted(column.name) + (column.type == Column::Type::text ? ", texts" : ", integers"), remedy);
+    refuse_member("field.type", "job.fields", path, "the format has no place for a label of cells", expected,
+                  base::quoted(column.name) + (column.type == Column::Type::text ? ", texts" : ", integers"), remedy);
 }
 
 /// VTK's image data: an array for each field, and what VTK's own probes give besides.
@@ -96,18 +96,21 @@ Sink open_picture(const ResampleJob& a, const std::string& path, const std::vect
         if (grid.counts[k] > 1 || grid.dimension == 2) axes.push_back(k);
     }
     if (axes.size() != 2)
-        refuse(path, "a picture shows one layer", "one point along exactly one axis, such as job.counts 800x600x1",
-               fmt::format("{} points", fmt::join(grid.counts, " x ")),
-               "choose the layer with job.bounds: it lies in the middle of the bounds");
+        refuse_member("picture.too-large", "job.counts", path, "a picture shows one layer",
+                      "one point along exactly one axis, such as job.counts 800x600x1",
+                      fmt::format("{} points", fmt::join(grid.counts, " x ")),
+                      "choose the layer with job.bounds: it lies in the middle of the bounds");
     constexpr std::int64_t max = 1000000;
     const std::size_t w = axes[0], h = axes[1];
     if (grid.counts[w] > max || grid.counts[h] > max)
-        refuse(path, "too many points for a picture", "at most 1000000 along each axis",
-               fmt::format("{} x {}", grid.counts[w], grid.counts[h]), "choose a coarser grid");
+        refuse_member("picture.too-large", "job.counts", path, "too many points for a picture",
+                      "at most 1000000 along each axis", fmt::format("{} x {}", grid.counts[w], grid.counts[h]),
+                      "choose a coarser grid");
     if (columns.size() != 1)
-        refuse(path, "a picture shows one column", "a field of one component, chosen by job.fields",
-               columns.empty() ? "no field" : fmt::format("{}", fmt::join(columns, ", ")),
-               columns.empty() ? "add one by job.field_files NAME=FILE" : "name one in job.fields");
+        refuse_member("field.component", "job.fields", path, "a picture shows one column",
+                      "a field of one component, chosen by job.fields",
+                      columns.empty() ? "no field" : fmt::format("{}", fmt::join(columns, ", ")),
+                      columns.empty() ? "add one by job.field_files NAME=FILE" : "name one in job.fields");
     FigureGrid picture;
     picture.width = static_cast<std::size_t>(grid.counts[w]);
     picture.height = static_cast<std::size_t>(grid.counts[h]);
@@ -146,9 +149,12 @@ Status write_tetgen_files(const Mesh& mesh, const std::string& path) {
     for (const Field& f : mesh.point_fields) {
         const std::size_t bad = base::first_not_finite(f.data), node = bad / static_cast<std::size_t>(f.components);
         if (bad == f.data.size()) continue;
-        return file_error(path, fmt::format("field \"{}\" is not finite at node {}, counted from 0", f.name, node),
-                          "finite attributes: a .node file cannot hold NaN or infinity", "",
-                          "choose job.outside nearest, extrapolate or fill=V for nodes outside, or another format");
+        return about(
+            "job.outside",
+            file_error("field.not-finite", path,
+                       fmt::format("field \"{}\" is not finite at node {}, counted from 0", f.name, node),
+                       "finite attributes: a .node file cannot hold NaN or infinity", "",
+                       "choose job.outside nearest, extrapolate or fill=V for nodes outside, or another format"));
     }
     return write_tetgen(mesh, tetgen_stem(path));
 }
@@ -174,8 +180,8 @@ Sink open_grid_sink(const ResampleJob& job, const std::string& path, const Table
                      "write .csv, or integers to .vti, or leave the label out of job.fields");
     if (png) return open_picture(job, path, columns, grid, picture);
     if (array && columns.empty())
-        refuse(path, "no field to write", "", "",
-               "add one by job.field_files NAME=FILE; .vti and .csv can be written without fields");
+        refuse_member("option.missing", "job.field_files", path, "no field to write", "", "",
+                      "add one by job.field_files NAME=FILE; .vti and .csv can be written without fields");
     if (array) return open_array(path, grid, columns.size());
     if (base::has_suffix(path, ".vti")) return open_vti(path, format, grid);
     // With the points of the grid, as rows of points from a file have them.
@@ -194,8 +200,9 @@ Sink open_grid_sink(const ResampleJob& job, const std::string& path, const Table
 /// Takes one row a node, and writes the mesh when all is there. Refused: carried columns.
 Sink mesh_sink(Mesh mesh, const std::string& path, const TableFormat& format, Notes& notes) {
     if (!format.carried.empty())
-        refuse(path, "a mesh has no labels of nodes", "fields", "label " + base::quoted(format.carried.front().name),
-               "leave labels out of job.fields, or write rows: .csv or .npy");
+        refuse_member("field.type", "job.fields", path, "a mesh has no labels of nodes", "fields",
+                      "label " + base::quoted(format.carried.front().name),
+                      "leave labels out of job.fields, or write rows: .csv or .npy");
     const io::MeshFormat kind = io::mesh_output_format(path).value();
     if (kind == io::MeshFormat::tetgen) io::note_lost_names(format.columns(), "a .node", notes);
     mesh.point_fields.clear();
@@ -226,8 +233,8 @@ Grid grid_of(const ResampleJob& a, const Mesh& mesh) {
     const auto d = static_cast<std::size_t>(mesh.dimension);
     Bounds3 box = bounds_of_cells(mesh);
     const auto refuse_axes = [&](const char* member, const std::string& expected, std::size_t found) {
-        refuse("", std::string(member) + " does not fit the mesh",
-               fmt::format("{} for a mesh of dimension {}", expected, d), std::to_string(found));
+        refuse_member("option.value", std::string(member), "", std::string(member) + " does not fit the mesh",
+                      fmt::format("{} for a mesh of dimension {}", expected, d), std::to_string(found));
     };
     if (!a.bounds.empty() && a.bounds.size() != 2 * d)
         refuse_axes("job.bounds", fmt::format("{} numbers", 2 * d), a.bounds.size());
@@ -257,24 +264,28 @@ bool is_rows(const std::string& output) {
 void check_job(const ResampleJob& job, const std::vector<jobs::Step>& steps) {
     const int targets = (job.counts.empty() ? 0 : 1) + (job.spacing.empty() ? 0 : 1) + (job.onto.empty() ? 0 : 1);
     if (targets != 1)
-        refuse("", targets == 0 ? "no target" : "more than one target", "one of job.counts, job.spacing and job.onto",
-               targets == 0 ? "none" : "several", "`barycert resample --help` explains them");
+        refuse_member(targets == 0 ? ErrorCode("option.missing") : ErrorCode("option.conflict"), "job.counts", "",
+                      targets == 0 ? "no target" : "more than one target",
+                      "one of job.counts, job.spacing and job.onto", targets == 0 ? "none" : "several",
+                      "`barycert resample --help` explains them");
     if (!job.bounds.empty() && !job.onto.empty())
-        refuse("", "job.bounds cannot be combined with job.onto", "", "",
-               "bounds are for job.counts and job.spacing: leave them out");
+        refuse_member("option.conflict", "job.bounds", "", "job.bounds cannot be combined with job.onto", "", "",
+                      "bounds are for job.counts and job.spacing: leave them out");
     if (!job.weights.empty() && job.onto.empty())
-        refuse(job.weights, "job.weights needs job.onto here", "", "",
-               "for the points of a grid, write them to a file first (job.output grid.csv), and use "
-               "`barycert sample --points grid.csv --weights`");
+        refuse_member("option.missing", "job.weights", job.weights, "job.weights needs job.onto here", "", "",
+                      "for the points of a grid, write them to a file first (job.output grid.csv), and use "
+                      "`barycert sample --points grid.csv --weights`");
     if (job.onto.empty()) {
         if (job.figure.range && !is_figure_name(job.output))
-            refuse(job.output, "job.range needs a picture", "", "", "use job.output FILE.png, or leave job.range out");
+            refuse_member("option.unfit", "job.range", job.output, "job.range needs a picture", "", "",
+                          "use job.output FILE.png, or leave job.range out");
         if (job.output != "-" && !base::has_one_of(job.output, {".csv", ".npy", ".vti", ".png", ".svg", ".pdf"}))
             jobs::refuse_output(job.output, ".vti, .npy, .csv, .png, .svg or .pdf for a grid, or - for CSV on stdout");
         return jobs::check_files(job, steps, {}, {{"job.output", job.output}});
     }
     if (job.figure.range)
-        refuse("", "job.range cannot be combined with job.onto", "", "", "it is for pictures: leave it out");
+        refuse_member("option.conflict", "job.range", "", "job.range cannot be combined with job.onto", "", "",
+                      "it is for pictures: leave it out");
     std::vector<std::string> outputs{job.output};
     if (!is_rows(job.output)) {
         const Result<io::MeshFormat> format = io::mesh_output_format(job.output);
@@ -284,7 +295,7 @@ void check_job(const ResampleJob& job, const std::vector<jobs::Step>& steps) {
         const std::string stem = tetgen_stem(job.output);
         if (*format == io::MeshFormat::tetgen) outputs = {stem + ".node", stem + ".ele"};
     }
-    jobs::check_files(job, steps, base::named_files("the mesh of job.onto", mesh_files(job.onto)),
+    jobs::check_files(job, steps, base::named_files("the mesh of job.onto", mesh_files(job.onto), true),
                       base::named_files("job.output", outputs));
 }
 
@@ -349,7 +360,7 @@ void onto_grid_in_steps(SampledMesh& mesh, const ResampleJob& job) {
             mesh.report.notes.push_back(
                 {Note::Kind::guessed,
                  "the grid of all steps lies in the box of the mesh of the first one: job.bounds names another box",
-                 job.mesh, true});
+                 job.mesh, true, "job.bounds"});
         onto_grid(mesh, job, path, anew);
     });
 }
@@ -362,9 +373,9 @@ void onto_mesh(SampledMesh& mesh, const ResampleJob& job) {
         read_mesh(job.onto, {.faces = !to_rows, .neighbours = !to_rows, .threads = job.options.threads}).value();
     const int d = mesh.mesh().dimension;
     if (other.dimension != d)
-        refuse(job.onto, "the meshes have different dimensions", fmt::format("{}, as {} has", d, job.mesh),
-               std::to_string(other.dimension),
-               "resample between meshes of triangles, or between meshes of tetrahedra");
+        refuse_member("mesh.dimension", "job.onto", job.onto, "the meshes have different dimensions",
+                      fmt::format("{}, as {} has", d, job.mesh), std::to_string(other.dimension),
+                      "resample between meshes of triangles, or between meshes of tetrahedra");
     SampleReport& report = mesh.report;
     report.onto_curved = measure_curved(other, job.onto, job.curved).value();
     report.from = PointsFrom::mesh;

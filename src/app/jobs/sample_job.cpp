@@ -18,37 +18,45 @@
 namespace barycert {
 namespace {
 
-using jobs::refuse;
+using jobs::refuse_member;
 using jobs::SampledMesh;
 
 void check_job(const SampleJob& job, const std::vector<jobs::Step>& steps) {
     const int given = (job.points.empty() ? 0 : 1) + (job.map.empty() ? 0 : 1) + (job.line ? 1 : 0);
     if (given != 1)
-        refuse("", given == 0 ? "no points" : "job.points, job.map and job.line",
-               "one of job.points FILE, job.map FILE and job.line A:B", given == 0 ? "none" : "several",
-               "a map contains its points");
+        refuse_member(given == 0 ? ErrorCode("option.missing") : ErrorCode("option.conflict"), "job.points", "",
+                      given == 0 ? "no points" : "job.points, job.map and job.line",
+                      "one of job.points FILE, job.map FILE and job.line A:B", given == 0 ? "none" : "several",
+                      "a map contains its points");
     if (job.line && !(job.columns.empty() && job.keep.empty()))
-        refuse("", std::string(job.keep.empty() ? "job.columns" : "job.keep") + " cannot be combined with job.line", "",
-               "", "points of a line have no columns");
+        refuse_member("option.conflict", "job.line", "",
+                      std::string(job.keep.empty() ? "job.columns" : "job.keep") + " cannot be combined with job.line",
+                      "", "", "points of a line have no columns");
     if (!job.plot.empty() && !is_figure_name(job.plot)) jobs::refuse_output(job.plot, ".png, .svg or .pdf");
     if (!job.plot.empty() && (job.all_steps || jobs::has_step_place(job.output)))
-        refuse(job.plot, "a plot of outputs of steps", "the steps of a field as columns of one output", "",
-               "leave {step} out, and name the field as NAME@PATTERN");
+        refuse_member("option.conflict", "job.plot", job.plot, "a plot of outputs of steps",
+                      "the steps of a field as columns of one output", "",
+                      "leave {step} out, and name the field as NAME@PATTERN");
     if (!job.plot.empty() && !job.weights.empty() && job.output.empty())
-        refuse(job.plot, "job.weights without job.output takes no fields to plot", "job.output FILE", "none");
+        refuse_member("option.missing", "job.output", job.plot,
+                      "job.weights without job.output takes no fields to plot", "job.output FILE", "none");
     if (!job.map.empty() && !job.save_map.empty())
-        refuse(job.save_map, "job.save_map cannot be combined with job.map", "", "", "copy the map");
+        refuse_member("option.conflict", "job.save_map", job.save_map, "job.save_map cannot be combined with job.map",
+                      "", "", "copy the map");
     if (!job.map.empty() && !(job.columns.empty() && job.keep.empty()))
-        refuse(job.map, std::string(job.keep.empty() ? "job.columns" : "job.keep") + " cannot be combined with job.map",
-               "", "", "a map has points and cells alone: name the file of the points by job.points");
+        refuse_member("option.conflict", "job.map", job.map,
+                      std::string(job.keep.empty() ? "job.columns" : "job.keep") + " cannot be combined with job.map",
+                      "", "", "a map has points and cells alone: name the file of the points by job.points");
     if (job.map == "-" || job.save_map == "-")
-        refuse("", "a map cannot come from stdin or go to stdout", "", "", "name a file");
+        refuse_member("option.value", "job.map", "", "a map cannot come from stdin or go to stdout", "", "",
+                      "name a file");
     if (job.output.empty() && job.weights.empty() && job.plot.empty())
-        refuse("", "no output", "job.output FILE, job.weights FILE or job.plot FILE", "none");
+        refuse_member("option.missing", "job.output", "", "no output",
+                      "job.output FILE, job.weights FILE or job.plot FILE", "none");
     if (job.output.empty() && job.plot.empty() &&
         !(job.fields.empty() && job.field_files.empty() && job.series.empty() && job.keep.empty()))
-        refuse("", "fields or columns without job.output", "", "",
-               "weights depend on no field: leave fields out, or name job.output too");
+        refuse_member("option.missing", "job.output", "", "fields or columns without job.output", "", "",
+                      "weights depend on no field: leave fields out, or name job.output too");
     if (!job.output.empty() && job.output != "-" && !base::has_one_of(job.output, {".csv", ".npy", ".vtu"}))
         jobs::refuse_output(job.output, ".csv, .npy or .vtu, or - for CSV on stdout");
     std::vector<base::NamedFile> inputs;
@@ -56,7 +64,7 @@ void check_job(const SampleJob& job, const std::vector<jobs::Step>& steps) {
     if (!job.points.empty()) inputs = {{"job.points", job.points}};
     // Not the file itself, but the stem of a mesh.
     if (!job.points.empty() && job.points != "-" && !io::exists(job.points) && !io::format_of_points(job.points))
-        inputs = base::named_files("the mesh of job.points", mesh_files(job.points));
+        inputs = base::named_files("the mesh of job.points", mesh_files(job.points), true);
     jobs::check_files(job, steps, inputs,
                       {{"job.output", job.output}, {"job.save_map", job.save_map}, {"job.plot", job.plot}});
 }
@@ -103,9 +111,9 @@ std::unique_ptr<PointSource> points_of(const SampleJob& job, int dimension, Nonf
     if (job.line) {
         const std::size_t d = job.line->from.size();
         if (d != static_cast<std::size_t>(dimension) || d != job.line->to.size() || job.line->count < 1)
-            refuse(job.mesh, "job.line",
-                   fmt::format("two points of {} coordinates, and a count of at least 1", dimension),
-                   fmt::format("{} and {} coordinates, {} points", d, job.line->to.size(), job.line->count));
+            refuse_member("option.value", "job.line", job.mesh, "job.line",
+                          fmt::format("two points of {} coordinates, and a count of at least 1", dimension),
+                          fmt::format("{} and {} coordinates, {} points", d, job.line->to.size(), job.line->count));
         return jobs::points_on(*job.line);
     }
     const bool csv = job.output == "-" || base::has_suffix(job.output, ".csv");
@@ -125,8 +133,9 @@ void at_points(SampledMesh& mesh, const SampleJob& job) {
     jobs::RowSource rows = jobs::rows_of_points(points);
     rows.begin_again = [&](const SampledMesh&) {
         if (io::is_read_once(job.points))
-            refuse(job.points, "the mesh changes from step to step, and points of a pipe can be read once", "", "",
-                   "save the points to a file, or choose one step: job.step N");
+            refuse_member("series.differs", "job.points", job.points,
+                          "the mesh changes from step to step, and points of a pipe can be read once", "", "",
+                          "save the points to a file, or choose one step: job.step N");
         points = open();
     };
     sample_rows(mesh, rows, outputs_of(mesh, job, points->carried()), job.save_map);
@@ -136,8 +145,8 @@ void at_points_of_map(SampledMesh& mesh, const SampleJob& job) {
     MapReader map = MapReader::open(job.map, mesh.mesh(), jobs::build_options(job, 0)).value();
     const auto word = [](bool all) { return all ? "all" : "lowest"; };
     if (job.all && *job.all != map.all())
-        refuse(job.map, "job.all differs from the map", word(map.all()), word(*job.all),
-               "leave the option out, or save another map");
+        refuse_member("map.cells", "job.all", job.map, "job.all differs from the map", word(map.all()), word(*job.all),
+                      "leave the option out, or save another map");
     mesh.report.from = PointsFrom::map;
     mesh.report.points = job.map;
     mesh.report.all = map.all();
@@ -149,7 +158,9 @@ void at_points_of_map(SampledMesh& mesh, const SampleJob& job) {
 
 void refuse_what_is_of_meshes(const SampleJob& job) {
     const auto only_meshes = [&](bool given, const char* member) {
-        if (given) refuse(job.mesh, std::string(member) + " is for meshes", "", "a surface", "leave it out");
+        if (given)
+            refuse_member("option.unfit", std::string(member), job.mesh, std::string(member) + " is for meshes", "",
+                          "a surface", "leave it out");
     };
     only_meshes(job.all.has_value(), "job.all");
     only_meshes(!job.plot.empty(), "job.plot");
@@ -158,8 +169,8 @@ void refuse_what_is_of_meshes(const SampleJob& job) {
     only_meshes(job.options.rounding == Rounding::plain, "job.rounding");
     const Outside outside = job.options.outside.kind;
     if (outside != Outside::nan && outside != Outside::nearest)
-        refuse(job.mesh, "a surface has no inside for job.outside", "nearest, or nearest=DISTANCE", "",
-               "values are those at the nearest point");
+        refuse_member("option.unfit", "job.outside", job.mesh, "a surface has no inside for job.outside",
+                      "nearest, or nearest=DISTANCE", "", "values are those at the nearest point");
 }
 
 /// Returns the fields that the job names, in that order; else all.
@@ -171,8 +182,9 @@ std::vector<std::pair<const Field*, bool>> chosen_fields(const SampleJob& job, c
     const auto choose = [&](const std::string& name, bool needed) {
         const auto found = std::ranges::find(all, name, [](const auto& f) { return f.first->name; });
         if (found == all.end() && needed)
-            refuse(job.mesh, "no field of that name", jobs::listed(all, [](const auto& f) { return f.first->name; }),
-                   name, "name fields as they are: expressions are for meshes");
+            refuse_member("field.unknown", "job.fields", job.mesh, "no field of that name",
+                          jobs::listed(all, [](const auto& f) { return f.first->name; }), name,
+                          "name fields as they are: expressions are for meshes");
         if (found != all.end()) chosen.push_back(*found);
         return found != all.end();
     };
@@ -383,7 +395,7 @@ Result<SampleReport> sample_files(const SampleJob& asked) {
         job, "sample", [&](const auto& steps) { check_job(job, steps); },
         [&](SampledMesh& mesh) { job.map.empty() ? at_points(mesh, job) : at_points_of_map(mesh, job); },
         !(job.map.empty() && job.save_map.empty()) || job.all.value_or(false) || jobs::needs_listed_grids(job));
-    if (!sampled && sampled.error().file == job.mesh) {
+    if (!sampled && sampled.error().code == "mesh.off-plane") {
         // Triangles off the plane are found when they are read.
         if (const auto surface = at_surface(job)) return *surface;
     }

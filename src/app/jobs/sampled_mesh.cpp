@@ -77,9 +77,13 @@ void SampledMesh::open() {
     report_mesh(job, mesh_, job.options.threads, report);
     const std::vector<Column>& labels = mesh_.cell_labels;
     if (!labels.empty() && job.fields.empty())
-        report.notes.push_back({Note::Kind::left_out, (labels.size() == 1 ? "label of cells " : "labels of cells ") +
-                                                          listed(labels, &Column::name) +
-                                                          "; name fields and labels in job.fields to have them"});
+        report.notes.push_back({Note::Kind::left_out,
+                                (labels.size() == 1 ? "label of cells " : "labels of cells ") +
+                                    listed(labels, &Column::name) +
+                                    "; name fields and labels in job.fields to have them",
+                                {},
+                                false,
+                                "job.fields"});
     report.seconds.mesh = watch.lap();
 }
 
@@ -132,16 +136,17 @@ bool SampledMesh::is_another(const Mesh& mesh) const {
 void SampledMesh::check_one_mesh(const std::string& path, const char* member) {
     for (const Step& step : steps) {
         if (!step.of_mesh || &step == &steps.front() || !is_another(read(step.of_mesh))) continue;
-        refuse(path, "the mesh changes from step to step, and " + std::string(member) + " is of one mesh", "",
-               "another mesh in step " + step.label, "choose one step: job.step N");
+        refuse_member("series.differs", std::string(member), path,
+                      "the mesh changes from step to step, and " + std::string(member) + " is of one mesh", "",
+                      "another mesh in step " + step.label, "choose one step: job.step N");
     }
 }
 
 void SampledMesh::read_mesh_of(const Step& step) {
     Mesh mesh = read(step.of_mesh);
     if (mesh.dimension != mesh_.dimension)
-        refuse(job.mesh, "step " + step.label + " has cells of another dimension",
-               std::to_string(mesh_.dimension) + ", as the first one has", std::to_string(mesh.dimension));
+        refuse_member("mesh.dimension", "job.step", job.mesh, "step " + step.label + " has cells of another dimension",
+                      std::to_string(mesh_.dimension) + ", as the first one has", std::to_string(mesh.dimension));
     another_mesh_ = is_another(mesh);
     if (another_mesh_) {
         sampler_.reset();
@@ -173,7 +178,7 @@ void SampledMesh::read_fields(const Step& step) {
             return fmt::format("{} rows of {}", f.data.size() / components, counted(components, "component"));
         };
         if (read.data.size() != field.data.size() || read.components != field.components)
-            refuse(step.files[i].path, "the steps of field \"" + step.files[i].name + "\" differ",
+            refuse("series.differs", step.files[i].path, "the steps of field \"" + step.files[i].name + "\" differ",
                    shape(field) + ", as in the first step", shape(read));
         field.data = std::move(read.data);
     }
@@ -211,7 +216,7 @@ void SampledMesh::choose_fields() {
         const auto count = static_cast<std::size_t>(choice.steps.rend() - last);
         if (count == 0) continue;
         if (const char* const wrong = mesh::inconsistency_of_cells(mesh_, mesh::FieldValues::any); wrong != nullptr)
-            refuse(job.mesh, std::string("the mesh is inconsistent: ") + wrong);
+            refuse("mesh.inconsistent", job.mesh, std::string("the mesh is inconsistent: ") + wrong);
         sample::make_fields(mesh_, choice, count, made_);
     }
 }

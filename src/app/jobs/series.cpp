@@ -52,13 +52,13 @@ std::vector<Step> steps_of_file(const FieldFile& series) {
         const std::string label = base::shortest(step.time);
         const bool twice = std::ranges::find(found, label, &Step::label) != found.end();
         if (step.files.size() != 1 || twice)
-            refuse(series.path, "step " + label + " of the series \"" + series.name + '"', "one file",
+            refuse("series.step", series.path, "step " + label + " of the series \"" + series.name + '"', "one file",
                    twice ? "another one of the same time" : std::to_string(step.files.size()) + " files",
                    "gather the parts of a step in a .pvtu file");
         found.push_back(step_of(label, series, step.files.front()));
         found.back().time = label;
     }
-    if (found.empty()) refuse(series.path, "no step in the series \"" + series.name + '"');
+    if (found.empty()) refuse("series.step", series.path, "no step in the series \"" + series.name + '"');
     return found;
 }
 
@@ -67,7 +67,7 @@ std::vector<Step> matches_of(const FieldFile& series) {
     const std::string& pattern = series.path;
     const auto stars = std::count(pattern.begin(), pattern.end(), '*');
     if (stars != 1)
-        refuse(pattern, "pattern of the series \"" + series.name + '"',
+        refuse("series.place", pattern, "pattern of the series \"" + series.name + '"',
                "one *, where the files of the steps differ, such as 'step-*.npy', or a .pvd or .vtu.series file",
                std::to_string(stars),
                "quote the pattern, so that the shell leaves it as it is; for one file write NAME=FILE");
@@ -92,8 +92,9 @@ std::vector<Step> matches_of(const FieldFile& series) {
     if (found.empty() && failed.value() == 0 && series.column.empty() && split && split->path.size() > star)
         return matches_of(*split);
     if (found.empty() || failed)
-        refuse(pattern, "no file of the series \"" + series.name + '"', "at least one file for the pattern",
-               failed ? failed.message() : "none", "check the folder and the pattern");
+        refuse("file.missing", pattern, "no file of the series \"" + series.name + '"',
+               "at least one file for the pattern", failed ? failed.message() : "none",
+               "check the folder and the pattern");
     std::ranges::sort(found, {}, [](const Step& step) { return natural_order(step.label); });
     return found;
 }
@@ -108,8 +109,8 @@ void check_places(const std::string& output) {
         const std::string word = output.substr(open + 1, output.find('}', open) - open - 1);
         const std::string meant = base::nearest_name(word, {"step", "time"});
         if (!meant.empty())
-            refuse(output, "a place that is not known in job.output", "{step} or {time}", '{' + word + '}',
-                   "did you mean {" + meant + "}?");
+            refuse_member("series.place", "job.output", output, "a place that is not known in job.output",
+                          "{step} or {time}", '{' + word + '}', "did you mean {" + meant + "}?");
     }
 }
 
@@ -129,7 +130,7 @@ std::vector<Step> steps_of_series(const std::vector<FieldFile>& series) {
             };
             // Both are sorted alike: the first that differ are not in the other one.
             if (name(steps) != name(found))
-                refuse(one.path,
+                refuse("series.differs", one.path,
                        "the series \"" + one.name + "\" and \"" + series.front().name + "\" have different steps",
                        name(steps), name(found), "name files that differ alike");
             steps[i].files.push_back(std::move(found[i].files.front()));
@@ -147,12 +148,12 @@ std::vector<Step> find_steps(const SamplingJob& job) {
     const bool both = !job.series.empty() && (job.all_steps || (place && series && !job.step.made()));
     if (!job.series.empty() && !both) return steps_of_series(job.series);
     if (both)
-        refuse(job.mesh, "all steps of the mesh, and of series of fields", "", "",
-               "choose one step of the mesh: job.step N");
+        refuse_member("option.conflict", "job.step", job.mesh, "all steps of the mesh, and of series of fields", "", "",
+                      "choose one step of the mesh: job.step N");
     if (job.all_steps && !series) throw Exception(io::no_series(job.mesh));
     if (job.all_steps && !place)
-        refuse(job.output, "no name for the output of each step", "{step} or {time} in job.output", "",
-               "such as job.output 'rows-{step}.csv'");
+        refuse_member("series.place", "job.output", job.output, "no name for the output of each step",
+                      "{step} or {time} in job.output", "", "such as job.output 'rows-{step}.csv'");
     std::vector<Step> steps;
     if (!place || !series) return steps;
     const std::vector<SeriesStep> all = read_series(job.mesh).value();
@@ -162,8 +163,9 @@ std::vector<Step> find_steps(const SamplingJob& job) {
         // Before there is an output of any step.
         for (const std::string& file : all[i].files) {
             if (!io::exists(file))
-                refuse(file, "no such file, which step " + std::to_string(i) + " of the series names", "", "",
-                       "restore it, or choose one step: job.step N");
+                refuse_member("file.missing", "job.step", file,
+                              "no such file, which step " + std::to_string(i) + " of the series names", "", "",
+                              "restore it, or choose one step: job.step N");
         }
         steps.push_back({.label = std::to_string(i), .time = base::shortest(all[i].time), .of_mesh = i});
     }

@@ -184,14 +184,16 @@ void sample_rows(SampledMesh& mesh, const RowSource& source, const OpenRows& ope
 }
 
 Error outside_error(const std::string& what, std::span<const double> where, const std::string& file) {
-    return file_error(file, what + ", counted from 0, is outside the mesh", "",
-                      "(" + base::joined(where, ", ", base::shortest) + ")",
-                      "choose what points outside get: job.outside nan, fill=V, nearest or extrapolate");
+    return about("job.outside",
+                 file_error("point.outside", file, what + ", counted from 0, is outside the mesh", "",
+                            "(" + base::joined(where, ", ", base::shortest) + ")",
+                            "choose what points outside get: job.outside nan, fill=V, nearest or extrapolate"));
 }
 
 void refuse_kept(const std::string& name) {
-    refuse("", "a column to keep has the name of another column of the rows", "", base::quoted(name),
-           "name the columns to keep, with another name for this one: job.keep OTHER=" + base::printable(name));
+    refuse_member("column.duplicate", "job.keep", "", "a column to keep has the name of another column of the rows", "",
+                  base::quoted(name),
+                  "name the columns to keep, with another name for this one: job.keep OTHER=" + base::printable(name));
 }
 
 std::uint64_t count_nan(const TableView& rows) {
@@ -217,8 +219,8 @@ Sink open_user_rows(SampledMesh& mesh, const std::vector<ColumnFormat>& carried,
     };
     for (const Column* const label : mesh.labels()) {
         if (!add(mesh::format_of(*label)))
-            refuse("", "a label of cells has the name of another column", "", base::quoted(label->name),
-                   "leave it, or the other one, out of job.fields");
+            refuse_member("column.duplicate", "job.fields", "", "a label of cells has the name of another column", "",
+                          base::quoted(label->name), "leave it, or the other one, out of job.fields");
     }
     const std::set<std::string> of_rows = names;
     std::vector<std::size_t> kept;
@@ -237,7 +239,7 @@ Sink open_user_rows(SampledMesh& mesh, const std::vector<ColumnFormat>& carried,
                     fmt::format("columns {}: the rows have columns of these names; job.keep OTHER={} carries one "
                                 "through under another name",
                                 fmt::join(left_out, ","), left_out.front()),
-                    mesh.report.points}},
+                    mesh.report.points, false, "job.keep"}},
                   mesh.report);
     Sink sink = open(format);
     // A sink of its own only where users see something else.

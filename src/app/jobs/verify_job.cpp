@@ -15,7 +15,7 @@ namespace barycert {
 namespace {
 
 using jobs::Claims;
-using jobs::refuse;
+using jobs::refuse_member;
 using jobs::Stopwatch;
 
 constexpr double tolerance_of_floats = 1e-6;
@@ -71,8 +71,9 @@ public:
         check_limits();
         compare();
         if (report_.verdicts.rows == 0)
-            refuse(job_.results == "-" ? "standard input" : job_.results, "there are no results to verify",
-                   "a row for each point", "no row", "look at what should have written them: nothing was compared");
+            refuse_member("results.empty", "job.results", job_.results == "-" ? "standard input" : job_.results,
+                          "there are no results to verify", "a row for each point", "no row",
+                          "look at what should have written them: nothing was compared");
         for (WrongRow& row : report_.verdicts.examples) {
             row.exact.cell = mesh_.cell_number(row.exact.cell);
             if (row.claimed_cell >= static_cast<std::int64_t>(mesh_.cell_count())) continue;
@@ -121,15 +122,16 @@ private:
         for (const VerifyLimit& limit : job_.limits) {
             if (report_.compared(limit.verdict)) continue;
             const bool cells = limit.verdict == RowVerdict::wrong_cell;
-            refuse(job_.results, "a rule that no row can break: " + std::string(handle(limit.verdict)),
-                   cells ? "a column that names cells" : "a column of values of a field", "none",
-                   cells ? "name it with job.cell_column, or leave the rule out"
-                         : "name it with job.values, or leave the rule out");
+            refuse_member("rule.unfit", cells ? "job.cell_column" : "job.values", job_.results,
+                          "a rule that no row can break: " + std::string(handle(limit.verdict)),
+                          cells ? "a column that names cells" : "a column of values of a field", "none",
+                          cells ? "name it with job.cell_column, or leave the rule out"
+                                : "name it with job.values, or leave the rule out");
         }
     }
 
     void guess(std::string text) {
-        report_.notes.push_back({Note::Kind::guessed, std::move(text), job_.results, true});
+        report_.notes.push_back({Note::Kind::guessed, std::move(text), job_.results, true, "job.tolerance"});
     }
 
     /// Single precision is told by the first block.
@@ -216,7 +218,8 @@ private:
 
 Result<VerifyReport> verify_files(const VerifyJob& job) try {
     const base::RunFiles run;
-    if (job.cell_base != 0 && job.cell_base != 1) refuse("", "job.cell_base", "0 or 1", std::to_string(job.cell_base));
+    if (job.cell_base != 0 && job.cell_base != 1)
+        refuse_member("option.value", "job.cell_base", "", "job.cell_base", "0 or 1", std::to_string(job.cell_base));
     jobs::check_files(job, {{"job.results", job.results}}, {});
     const jobs::ThreadLimit limit(job.options.threads);
     return Verification(job).run();
@@ -233,7 +236,7 @@ Result<VerifyLimit> parse_verify_limit(std::string_view text) {
         if (names.back() == limit.name && limit.most && std::floor(*limit.most) == *limit.most && *limit.most <= 0x1p53)
             return VerifyLimit{kind, static_cast<std::uint64_t>(*limit.most)};
     }
-    return file_error("", "unknown rule", "missed, invented, wrong_cell or wrong_value, perhaps >COUNT",
+    return file_error("rule.unknown", "", "unknown rule", "missed, invented, wrong_cell or wrong_value, perhaps >COUNT",
                       '"' + std::string(text) + '"', base::did_you_mean(limit.name, names));
 }
 

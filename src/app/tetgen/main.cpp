@@ -44,7 +44,8 @@ void check_output(const Options& options, const Plc& plc) {
     const std::filesystem::path folder = stem.has_parent_path() ? stem.parent_path() : ".";
     std::error_code code;
     if (!std::filesystem::is_directory(folder, code))
-        throw Exception(file_error(options.output, "cannot write the mesh", "a folder " + folder.string(),
+        throw Exception(file_error("file.unwritable", options.output, "cannot write the mesh",
+                                   "a folder " + folder.string(),
                                    std::filesystem::exists(folder, code) ? "a file" : "nothing"));
 }
 
@@ -90,6 +91,7 @@ bool find_reason(const Options& options, const Plc& plc, Error& error) {
     if (defect == report.defects.end()) return false;
     const DefectText& text = defect_text(defect->kind);
     const bool one = defect->count == 1;
+    error.code = "plc.defect";
     error.what = fmt::format("{}{} {} ({})", defect->at_least ? "at least " : "", defect->count,
                              text.one.empty() ? text.text
                              : one            ? text.one
@@ -104,36 +106,37 @@ Error carved_error(const Options& options, const Plc& plc) {
     const CheckReport report = check_plc(plc, {.examples = 0, .contacts = 0});
     const auto kept = std::ranges::count(report.surface->regions, false, &SurfaceRegion::hole);
     if (!report.certified() || kept == 0)
-        return file_error(options.input,
+        return file_error("plc.open", options.input,
                           "no cell is left: the facets do not enclose a volume, or a hole point lies in the region", {},
                           {},
                           fmt::format("close the surface; `barycert check {}` says where it is open",
                                       base::shell_word(options.input)));
-    return file_error(options.input, "TetGen kept no cell, although the facets enclose a region", {}, {},
+    return file_error("plc.open", options.input, "TetGen kept no cell, although the facets enclose a region", {}, {},
                       "it merges facets that are nearly in one plane: keep them apart by --switches pM");
 }
 
 Error tetgen_error(const Options& options, const Plc& plc, const ChildOutcome& outcome, const std::string& verdict) {
-    const auto error = [&](std::string what, std::string_view remedy) {
-        return file_error(options.input, std::move(what), {}, {}, std::string(remedy));
+    const auto error = [&](ErrorCode code, std::string what, std::string_view remedy) {
+        return file_error(code, options.input, std::move(what), {}, {}, std::string(remedy));
     };
-    if (!outcome.failure.empty()) return error("cannot start a child process: " + outcome.failure, "");
+    if (!outcome.failure.empty()) return error("tool.failed", "cannot start a child process: " + outcome.failure, "");
     if (outcome.timed_out)
-        return error(fmt::format("TetGen did not end within {} s", options.timeout),
+        return error("tool.failed", fmt::format("TetGen did not end within {} s", options.timeout),
                      "raise --timeout, or ask for larger cells");
-    if (verdict == "memory") return error("TetGen ran out of memory", "ask for larger cells");
+    if (verdict == "memory") return error("memory.short", "TetGen ran out of memory", "ask for larger cells");
     if (outcome.signal && *outcome.signal == SIGKILL)
-        return error("TetGen was killed, probably because memory ran out", "ask for larger cells");
+        return error("memory.short", "TetGen was killed, probably because memory ran out", "ask for larger cells");
     if (outcome.signal)
-        return error(fmt::format("TetGen crashed by signal {} ({})", *outcome.signal, strsignal(*outcome.signal)),
+        return error("tool.failed",
+                     fmt::format("TetGen crashed by signal {} ({})", *outcome.signal, strsignal(*outcome.signal)),
                      "repair the PLC, or try other options");
     if (verdict == "carved") return carved_error(options, plc);
     if (!verdict.starts_with("failed "))
-        return error(fmt::format("TetGen exited with code {}", outcome.exit_code),
+        return error("tool.failed", fmt::format("TetGen exited with code {}", outcome.exit_code),
                      "repair the PLC, or try other options");
     const int code = std::stoi(verdict.substr(7));
     const auto [what, remedy] = meaning_of(code);
-    return error(fmt::format("{} (its code {})", what, code), remedy);
+    return error("tool.failed", fmt::format("{} (its code {})", what, code), remedy);
 }
 
 int run(const Options& options) {
@@ -163,7 +166,8 @@ int run(const Options& options) {
     std::string written;
     std::getline(answer, written);
     if (!written.starts_with("written "))
-        throw Exception({.what = written.starts_with("error ") ? written.substr(6) : "the writer did not end"});
+        throw Exception({.code = "file.unwritable",
+                         .what = written.starts_with("error ") ? written.substr(6) : "the writer did not end"});
     if (options.quiet) return 0;
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     fmt::print(stderr, "{}: {} in {:.2f} s\n", base::printable(options.input), verdict.substr(5), seconds);

@@ -152,11 +152,12 @@ std::optional<int> parse_options(int argc, char** argv, Options& options) {
         const int code = app.exit(wish);
         std::cout.flush();
         if (std::cout) return code;
-        throw Exception({.what = "cannot write to stdout", .found = std::strerror(errno)});
+        throw Exception({.code = "file.unwritable", .what = "cannot write to stdout", .found = std::strerror(errno)});
     } catch (const std::bad_alloc&) {
         throw;  // it is not about an option
     } catch (const std::exception& problem) {
-        throw Exception({.what = cli::usage_error(app, problem, "run barycert-tetgen --help for the usage")});
+        throw Exception({.code = "option.usage",
+                         .what = cli::usage_error(app, problem, "run barycert-tetgen --help for the usage")});
     }
     if (options.output.empty()) options.output = default_output(options.input);
     options.output = tetgen_stem(options.output);

@@ -74,11 +74,11 @@ private:
     }
 
     [[noreturn]] void foreign(const char* found) const {
-        throw Exception(file_error(path_, cannot_load, "a shared library (ELF) for this machine", found,
+        throw Exception(file_error("kernel.load", path_, cannot_load, "a shared library (ELF) for this machine", found,
                                    "build it on this machine with -shared -fPIC"));
     }
     [[noreturn]] void cut() const {
-        throw Exception(file_error(path_, cannot_load, "a complete file, as its headers declare",
+        throw Exception(file_error("kernel.load", path_, cannot_load, "a complete file, as its headers declare",
                                    "the end of the file, after " + std::to_string(file_.size()) + " bytes",
                                    "the file is truncated: build or copy it again"));
     }

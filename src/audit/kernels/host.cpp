@@ -20,8 +20,9 @@ namespace barycert::kernels {
 namespace {
 
 Error no_process(const std::string& path, std::string found) {
-    return file_error(path, "cannot run the kernel library in a process of its own", "", std::move(found),
-                      "run it in this process with job.in_process if you trust it");
+    return about("job.in_process",
+                 file_error("kernel.process", path, "cannot run the kernel library in a process of its own", "",
+                            std::move(found), "run it in this process with job.in_process if you trust it"));
 }
 
 /// The time that loading the library may take, or the limit for a case if that is more.
@@ -90,7 +91,7 @@ Result<std::shared_ptr<Host>> Host::start(const std::string& path, double second
         const int status = host->end(worker);
         host->give_back(std::move(worker));
         if (end == End::no_process) return no_process(path, "no process for it could be started");
-        return file_error(path, "cannot load the kernel library", "",
+        return file_error("kernel.load", path, "cannot load the kernel library", "",
                           end == End::hung ? not_loaded_within(host->loading_milliseconds_)
                                            : "its process ended while it was loaded: " + ending(status),
                           "look at its constructors and at barycert_kernel_describe");

@@ -19,20 +19,21 @@ constexpr const char* usable = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUV
 /// The kernel that a library describes, its functions aside.
 Result<Kernel> described(const std::string& path, const Description& d) {
     if (d.missing[0] != '\0')
-        return file_error(path, "the library is not a kernel library", std::string("the function ") + d.missing, "none",
+        return file_error("kernel.interface", path, "the library is not a kernel library",
+                          std::string("the function ") + d.missing, "none",
                           "define it as barycert/kernel.h declares it, with C linkage and default visibility");
     if (d.abi != BARYCERT_KERNEL_ABI)
-        return file_error(path, "the kernel library has another interface version", std::to_string(BARYCERT_KERNEL_ABI),
-                          std::to_string(d.abi),
+        return file_error("kernel.interface", path, "the kernel library has another interface version",
+                          std::to_string(BARYCERT_KERNEL_ABI), std::to_string(d.abi),
                           "set info->abi = BARYCERT_KERNEL_ABI and rebuild it with this version's barycert/kernel.h");
     const bool perspective = std::string_view(d.simplex) == "triangle.perspective";
     const auto simplex = perspective ? Simplex::triangle : simplex_named(d.simplex);
     if (!simplex)
-        return file_error(path, "the kernel library names an unknown simplex",
+        return file_error("kernel.interface", path, "the kernel library names an unknown simplex",
                           "segment, triangle, triangle3d, tetrahedron or triangle.perspective",
                           std::string("\"") + d.simplex + '"', "set info->simplex to one of these");
     if (d.name[0] == '\0' || d.name[std::strspn(d.name, usable)] != '\0')
-        return file_error(path, "the kernel library has an unusable name", "letters, digits, -, _ and .",
+        return file_error("kernel.name", path, "the kernel library has an unusable name", "letters, digits, -, _ and .",
                           std::string("\"") + d.name + '"', "set info->name accordingly");
     const std::string name = std::string(perspective ? "perspective-" : "") + d.name;
     Kernel k =
@@ -42,13 +43,13 @@ Result<Kernel> described(const std::string& path, const Description& d) {
     k.perspective = perspective;
     if (d.classifies) k.rule = RegionRule::own;
     if (std::ranges::find(catalogue(), k.name, &Kernel::name) != catalogue().end())
-        return file_error(path, "the kernel library takes the name of a kernel of the catalogue", "another name",
-                          k.name, "change info->name");
+        return file_error("kernel.name", path, "the kernel library takes the name of a kernel of the catalogue",
+                          "another name", k.name, "change info->name");
     return k;
 }
 
 Error not_loaded(const std::string& path, std::string found) {
-    return file_error(path, "cannot load the kernel library", "", std::move(found),
+    return file_error("kernel.load", path, "cannot load the kernel library", "", std::move(found),
                       "give the path of a shared library for this machine, all of whose symbols can be resolved");
 }
 

@@ -209,11 +209,13 @@ Shown shown(const SearchOptions& o, std::size_t reason, const Harvest& all) {
 }
 
 Status check(const SearchOptions& o) {
-    if (o.steps == 0) return Error{.what = "a search of no steps", .expected = "at least 1", .found = "0"};
+    if (o.steps == 0)
+        return Error{.code = "option.value", .what = "a search of no steps", .expected = "at least 1", .found = "0"};
     if (o.min_exponent > o.max_exponent || o.min_exponent < -1074 || o.max_exponent > 1023)
-        return file_error({}, "the exponents of a search", "LOW:HIGH with -1074 <= LOW <= HIGH <= 1023",
+        return file_error("option.value", {}, "the exponents of a search", "LOW:HIGH with -1074 <= LOW <= HIGH <= 1023",
                           std::to_string(o.min_exponent) + ":" + std::to_string(o.max_exponent));
-    if (o.kernel.weights == nullptr && o.kernel.host == nullptr) return Error{.what = "a search without a kernel"};
+    if (o.kernel.weights == nullptr && o.kernel.host == nullptr)
+        return Error{.code = "option.missing", .what = "a search without a kernel"};
     return Done{};
 }
 

@@ -29,7 +29,8 @@ inline std::size_t first_not_finite(std::span<const double> numbers) {
 
 /// Returns the error that `what`, which is x, is not finite.
 inline Error not_finite(std::string what, double x, std::string remedy = {}) {
-    return file_error({}, std::move(what), "a finite number", std::to_string(x), std::move(remedy));
+    return file_error("argument.not-finite", {}, std::move(what), "a finite number", std::to_string(x),
+                      std::move(remedy));
 }
 
 }  // namespace barycert::base

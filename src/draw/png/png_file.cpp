@@ -138,7 +138,7 @@ Result<std::string> in_memory(png_image& image, std::size_t width, std::size_t h
     const int done = png_image_write_to_memory(&image, out.data(), &size, 0, pixels.data(), stride, map);
     const std::string message = image.message;
     png_image_free(&image);
-    if (done == 0) return Error{.what = "cannot make a picture", .found = message};
+    if (done == 0) return Error{.code = "picture.failed", .what = "cannot make a picture", .found = message};
     out.resize(size);
     return out;
 }
@@ -155,8 +155,9 @@ Result<PngPixels> read_png_pixels(const std::string& path, std::uint64_t max_pix
     const bool is_png = *got == start.size() && png_sig_cmp(reinterpret_cast<png_const_bytep>(start.data()), 0, 8) == 0;
     const std::uint64_t most = 16 * max_pixels + (std::uint64_t{1} << 26);
     if (is_png && input->size() > most)
-        return file_error(path, "the PNG file is too large", "at most " + std::to_string(most) + " bytes",
-                          std::to_string(input->size()), "save it without what is no picture");
+        return file_error("file.too-large", path, "the PNG file is too large",
+                          "at most " + std::to_string(most) + " bytes", std::to_string(input->size()),
+                          "save it without what is no picture");
     const auto file =
         base::MappedFile::read(*input, path, is_png ? static_cast<std::size_t>(input->size()) : start.size());
     if (!file) return file.error();
@@ -166,9 +167,11 @@ Result<PngPixels> read_png_pixels(const std::string& path, std::uint64_t max_pix
     const bool made = d.info != nullptr;
     if (made && decode(d, max_pixels)) return std::move(d.pixels);
     if (d.too_large)
-        return file_error(path, "the PNG file is too large", "at most " + std::to_string(max_pixels) + " pixels",
+        return file_error("file.too-large", path, "the PNG file is too large",
+                          "at most " + std::to_string(max_pixels) + " pixels",
                           std::to_string(d.pixels.width) + " by " + std::to_string(d.pixels.height), "scale it down");
-    return file_error(path, "cannot read the PNG file", d.at == 0 && made ? "a PNG file" : "",
+    return file_error(d.cut_short ? ErrorCode("file.truncated") : ErrorCode("file.format"), path,
+                      "cannot read the PNG file", d.at == 0 && made ? "a PNG file" : "",
                       !made         ? "libpng does not start"
                       : d.cut_short ? "the end of the file"
                                     : std::string(d.message.data()),
@@ -188,7 +191,7 @@ Status write_png_rows(const std::string& path, std::size_t width, std::size_t he
     if (encoder.no_memory) throw std::bad_alloc();
     if (Status written = file.status(); !written) return written;
     if (done) return file.commit();
-    return file_error(path, "cannot make the PNG file", {},
+    return file_error("picture.failed", path, "cannot make the PNG file", {},
                       made ? std::string(encoder.message.data()) : "libpng does not start",
                       "make sure that memory suffices and that the libpng installed is the one built with");
 }

@@ -62,10 +62,10 @@ double value_at(const ExactPoint& p, const double* values, std::size_t stride, s
 
 Status check_segment(int dimension, std::span<const double> a, std::span<const double> b) {
     if (dimension < 1 || dimension > 3)
-        return file_error({}, "dimension of a segment", "1, 2 or 3", std::to_string(dimension),
+        return file_error("argument.value", {}, "dimension of a segment", "1, 2 or 3", std::to_string(dimension),
                           "choose another dimension");
     if (a.size() != b.size() || a.size() < static_cast<std::size_t>(dimension))
-        return file_error({}, "the ends of a segment",
+        return file_error("argument.size", {}, "the ends of a segment",
                           std::to_string(dimension) + " coordinates and as many attributes at both ends",
                           std::to_string(a.size()) + " and " + std::to_string(b.size()) + " numbers",
                           "give a number for each coordinate and attribute of each end");
@@ -217,9 +217,10 @@ private:
 
 Status check_rows(std::span<const double> vertices) {
     if (vertices.size() < 12 || vertices.size() % 3 != 0)
-        return file_error(
-            {}, "a triangle of other than three vertices", "three rows of x, y, z, w and attributes, of equal length",
-            std::to_string(vertices.size()) + " numbers", "give a number for each attribute of each vertex");
+        return file_error("argument.size", {}, "a triangle of other than three vertices",
+                          "three rows of x, y, z, w and attributes, of equal length",
+                          std::to_string(vertices.size()) + " numbers",
+                          "give a number for each attribute of each vertex");
     const std::size_t i = base::first_not_finite(vertices), row = vertices.size() / 3;
     if (i == vertices.size()) return Done{};
     return base::not_finite("number " + std::to_string(i % row) + " of vertex " + std::to_string(i / row), vertices[i],

@@ -37,7 +37,8 @@ constexpr std::uint64_t max_bytes = std::uint64_t{8} << 30;
 
 Status check_vertices(std::span<const double> vertices) {
     if (vertices.size() != 6)
-        return file_error({}, "number of coordinates of a triangle", "6", std::to_string(vertices.size()));
+        return file_error("argument.size", {}, "number of coordinates of a triangle", "6",
+                          std::to_string(vertices.size()));
     const std::size_t i = base::first_not_finite(vertices);
     if (i == vertices.size()) return Done{};
     return base::not_finite("coordinate " + std::to_string(i % 2) + " of vertex " + std::to_string(i / 2), vertices[i]);
@@ -49,15 +50,16 @@ Status check_fill(std::span<const double> vertices, std::span<const double> valu
     if (Status s = check_vertices(vertices); !s) return s;
     const auto components = static_cast<std::size_t>(std::max(out.components, 0));
     if (components == 0 || values.size() != 3 * components)
-        return file_error({}, "number of values of a triangle",
+        return file_error("argument.size", {}, "number of values of a triangle",
                           "3 for each of the raster's components, of which there is at least 1",
                           std::to_string(values.size()) + " for " + std::to_string(out.components));
     const std::size_t pixels = static_cast<std::size_t>(out.size.width) * static_cast<std::size_t>(out.size.height);
     if (out.data.size() != pixels * components)
-        return file_error({}, "size of the raster's data", std::to_string(pixels * components),
+        return file_error("argument.size", {}, "size of the raster's data", std::to_string(pixels * components),
                           std::to_string(out.data.size()));
     if (options.rounding == Rounding::correct && options.method != FillMethod::barycentric)
-        return file_error({}, "correctly rounded values by steps or auxiliary lines", "FillMethod::barycentric", "",
+        return file_error("argument.value", {}, "correctly rounded values by steps or auxiliary lines",
+                          "FillMethod::barycentric", "",
                           "all methods have the same exact values: use FillMethod::barycentric");
     return Done{};
 }
@@ -68,7 +70,7 @@ Status check_fill(std::span<const double> vertices, std::span<const double> valu
 Status check_raster_size(RasterSize size) {
     for (const auto& [name, side] : {std::pair{"width", size.width}, std::pair{"height", size.height}}) {
         if (side < 1 || side > max_raster_side)
-            return file_error({}, std::string("the ") + name + " of a raster",
+            return file_error("argument.value", {}, std::string("the ") + name + " of a raster",
                               "1 to " + std::to_string(max_raster_side) + " pixels", std::to_string(side));
     }
     return Done{};
@@ -90,7 +92,7 @@ Result<PixelValues> empty_pixels(RasterSize size, int components) {
     const auto pixels = static_cast<std::uint64_t>(size.width) * static_cast<std::uint64_t>(size.height);
     const std::uint64_t max_components = raster::max_bytes / sizeof(double) / pixels;
     if (components < 1 || static_cast<std::uint64_t>(components) > max_components)
-        return file_error({}, "number of components at each pixel",
+        return file_error("argument.value", {}, "number of components at each pixel",
                           "1 to " + std::to_string(max_components) + " in a raster of this size",
                           std::to_string(components));
     PixelValues empty{size, components, {}};

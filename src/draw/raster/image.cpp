@@ -14,11 +14,12 @@ std::string by(std::int64_t width, std::int64_t height) {
 
 Status check_sides(std::int64_t width, std::int64_t height) {
     if (width < 1 || height < 1)
-        return file_error({}, "an image of that size cannot be", "at least 1 pixel a side", by(width, height),
-                          "choose another size");
+        return file_error("argument.value", {}, "an image of that size cannot be", "at least 1 pixel a side",
+                          by(width, height), "choose another size");
     if (width > max_image_pixels / height)
-        return file_error({}, "the image is too large", "at most " + std::to_string(max_image_pixels) + " pixels",
-                          by(width, height), "choose a smaller size");
+        return file_error("picture.too-large", {}, "the image is too large",
+                          "at most " + std::to_string(max_image_pixels) + " pixels", by(width, height),
+                          "choose a smaller size");
     return Done{};
 }
 
@@ -87,7 +88,7 @@ Status check_image(const Image& image) {
     if (Status good = check_sides(image.width, image.height); !good) return good;
     const std::size_t bytes = image.offset(0, image.height);
     if (image.data.size() == bytes) return Done{};
-    return file_error({}, "the data of the image do not fit its size",
+    return file_error("argument.size", {}, "the data of the image do not fit its size",
                       std::to_string(bytes) + " bytes for " + by(image.width, image.height) + " pixels",
                       std::to_string(image.data.size()), "give four bytes a pixel");
 }
@@ -112,7 +113,7 @@ Status write_png(const std::string& path, const Image& image) {
     }
     const auto width = static_cast<std::size_t>(image.width), height = static_cast<std::size_t>(image.height);
     if (std::max(width, height) > png::longest_png_side)
-        return file_error(path, "the image is too long for a PNG file",
+        return file_error("picture.too-large", path, "the image is too long for a PNG file",
                           "at most " + std::to_string(png::longest_png_side) + " pixels a side",
                           by(image.width, image.height), "choose a smaller size");
     const std::size_t row = image.offset(0, 1);
@@ -147,7 +148,7 @@ Result<Image> checkerboard(std::int32_t cells, std::int32_t texels) {
     constexpr Rgba dark{40, 60, 90, 255}, light{240, 235, 220, 255};
     const std::int64_t side = std::int64_t{cells} * texels;
     if (cells < 1 || texels < 1)
-        return file_error({}, "a checkerboard of that size cannot be",
+        return file_error("argument.value", {}, "a checkerboard of that size cannot be",
                           "at least 1 square a side and 1 texel a side of a square",
                           std::to_string(cells) + " and " + std::to_string(texels), "choose larger numbers");
     if (Status good = check_sides(side, side); !good) return good.error();

@@ -111,7 +111,7 @@ private:
     std::string place() const { return place_.empty() ? "the scene" : place_; }
 
     [[noreturn]] void refuse(std::string what, std::string expected, std::string found) const {
-        throw Exception({std::move(what), path_, 0, std::move(expected), std::move(found),
+        throw Exception({"scene.member", std::move(what), path_, 0, std::move(expected), std::move(found),
                          "doc/rendering.md describes scene files"});
     }
 
@@ -129,8 +129,9 @@ Result<std::string> text_of_file(const std::string& path) {
     const Result<base::InputFile> file = base::InputFile::open(path);
     if (!file) return file.error();
     if (file->size() > longest_file)
-        return file_error(path, "the scene file is too large", "at most " + std::to_string(longest_file) + " bytes",
-                          std::to_string(file->size()), "draw large scenes through the library: scene.hpp");
+        return file_error("file.too-large", path, "the scene file is too large",
+                          "at most " + std::to_string(longest_file) + " bytes", std::to_string(file->size()),
+                          "draw large scenes through the library: scene.hpp");
     std::string text(file->size(), '\0');
     const Result<std::size_t> read = file->read_at(0, text, path);
     if (!read) return read.error();
@@ -145,7 +146,7 @@ Json parse(const std::string& text, const std::string& path) {
         if (event == Json::parse_event_t::object_start) names.emplace_back();
         if (event == Json::parse_event_t::object_end) names.pop_back();
         if (event == Json::parse_event_t::key && !names.back().insert(parsed.get<std::string>()).second)
-            throw Exception(file_error(path, "a member occurs twice in one object", "",
+            throw Exception(file_error("file.duplicate", path, "a member occurs twice in one object", "",
                                        base::quoted(parsed.get<std::string>()), "leave one out"));
         return true;
     };
@@ -157,13 +158,15 @@ Json parse(const std::string& text, const std::string& path) {
         return Json::parse(text, on_event);
     } catch (const Json::parse_error& e) {
         const auto before = static_cast<std::ptrdiff_t>(std::min(e.byte == 0 ? 0 : e.byte - 1, text.size()));
-        throw Exception({.what = "the scene is no JSON",
+        throw Exception({.code = "file.syntax",
+                         .what = "the scene is no JSON",
                          .file = path,
                          .line = 1 + static_cast<std::size_t>(std::count(text.begin(), text.begin() + before, '\n')),
                          .found = behind(e.what(), ": "),  // [id] parse error at line L, column C: what
                          .remedy = "correct the file"});
     } catch (const Json::exception& e) {  // a number beyond the doubles
-        throw Exception(file_error(path, "the scene cannot be read", "", behind(e.what(), "] "), "correct the file"));
+        throw Exception(file_error("file.syntax", path, "the scene cannot be read", "", behind(e.what(), "] "),
+                                   "correct the file"));
     }
 }
 

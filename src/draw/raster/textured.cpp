@@ -19,15 +19,17 @@ Status check_textured(const Image& image, const Texture& texture, std::span<cons
     if (Status s = check_image(texture.image); !s) return s;
     if (Status s = check_raster_size({image.width, image.height}); !s) return s;
     if (texture.filter != Filter::nearest)
-        return file_error({}, "the filter of a texture that is drawn on lanes", "Filter::nearest", "",
+        return file_error("argument.value", {}, "the filter of a texture that is drawn on lanes", "Filter::nearest", "",
                           "use render() of scene.hpp, which filters");
     if (vertices.size() % 3 != 0)
-        return file_error({}, "number of vertices", "three for each triangle", std::to_string(vertices.size()));
+        return file_error("argument.size", {}, "number of vertices", "three for each triangle",
+                          std::to_string(vertices.size()));
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         const TexturedVertex& t = vertices[i];
         const bool finite = std::isfinite(t.x) && std::isfinite(t.y) && std::isfinite(t.u) && std::isfinite(t.v);
         if (!finite || !std::isfinite(t.w) || (perspective && !(t.w > 0)))
-            return file_error({}, "vertex " + std::to_string(i % 3) + " of triangle " + std::to_string(i / 3),
+            return file_error("argument.value", {},
+                              "vertex " + std::to_string(i % 3) + " of triangle " + std::to_string(i / 3),
                               perspective ? "finite numbers, w > 0" : "finite numbers",
                               finite ? "w = " + std::to_string(t.w) : "one that is not finite");
     }

@@ -53,12 +53,12 @@ struct MeshioFile {
 MeshioFile run_meshio(const std::string& path, const std::string& format) {
     const char* const named = std::getenv("BARYCERT_MESHIO");
     if (named != nullptr && *named == '\0')
-        refuse_file(path, "this file is read by way of meshio, which BARYCERT_MESHIO turns off", {}, {},
+        refuse_file("tool.missing", path, "this file is read by way of meshio, which BARYCERT_MESHIO turns off", {}, {},
                     "unset BARYCERT_MESHIO, or set it to a Python that has meshio");
     const base::InputFile input = base::InputFile::open(path).value();
     const auto keyword = [&](std::string_view block, std::uint64_t) -> Status {
         if (format != "abaqus" || block.starts_with('*') || block.find("\n*") != std::string_view::npos) return Done{};
-        return file_error(path, "not a mesh of Abaqus",
+        return file_error("file.format", path, "not a mesh of Abaqus",
                           "a keyword, such as *NODE, in the first " + std::to_string(block.size()) + " bytes", "none",
                           "check the path, or write the file again");
     };
@@ -101,7 +101,7 @@ MeshioFile run_meshio(const std::string& path, const std::string& format) {
             return file;
         } else {
             refuse_file(
-                path, "meshio did not come to its end",
+                "tool.failed", path, "meshio did not come to its end",
                 "an answer within " + std::to_string(most_time.count()) + " s, in half of the memory of this machine",
                 !ended                ? "none"
                 : WIFSIGNALED(status) ? ::strsignal(WTERMSIG(status))
@@ -109,8 +109,8 @@ MeshioFile run_meshio(const std::string& path, const std::string& format) {
                 "convert the file to .vtu with the program that it is of");
         }
     }
-    refuse_file(path, "this file is read by way of meshio, which is not installed", "a Python with the module meshio",
-                tried,
+    refuse_file("tool.missing", path, "this file is read by way of meshio, which is not installed",
+                "a Python with the module meshio", tried,
                 "install it: `apt install python3-meshio`, or `python3 -m pip install 'meshio[all]'`; "
                 "BARYCERT_MESHIO names the Python to use");
 }
@@ -120,7 +120,7 @@ using Json = nlohmann::json;
 Error not_read(const Json& answer, const std::string& messages, const std::string& path, const std::string& format) {
     const std::string module = answer.value("module", Json()).is_string() ? answer["module"].get<std::string>() : "";
     return file_error(
-        path, "meshio " + answer.value("meshio", std::string("?")) + " cannot read the file",
+        "tool.failed", path, "meshio " + answer.value("meshio", std::string("?")) + " cannot read the file",
         "what meshio takes for " + format,
         base::printable(answer["error"].get<std::string>() + (messages.empty() ? "" : ": ") + messages.substr(0, 300)),
         module.empty() ? "save it as .vtu or Gmsh's .msh in the program that it is of"
@@ -130,7 +130,7 @@ Error not_read(const Json& answer, const std::string& messages, const std::strin
 /// Returns the script's own error about the file.
 Error refused(const Json& by, const std::string& path) {
     const auto text = [&](const char* member) { return by.at(member).get<std::string>(); };
-    return file_error(path, text("what"), text("expected"), text("found"), text("remedy"));
+    return file_error("file.unsupported", path, text("what"), text("expected"), text("found"), text("remedy"));
 }
 
 /// Checks that the file is complete: compares what meshio counted with what was read. Polygons in space come back as
@@ -138,7 +138,7 @@ Error refused(const Json& by, const std::string& path) {
 void check_complete(const Json& answer, const Mesh& mesh, const InSpace& space, const std::string& path) {
     const auto need = [&](const std::string& what, std::size_t counted, std::size_t read) {
         if (counted != read)
-            refuse_file(path, "a mesh that is incomplete after its conversion", {},
+            refuse_file("tool.failed", path, "a mesh that is incomplete after its conversion", {},
                         std::to_string(counted) + " " + what + ", of which " + std::to_string(read) + " came through");
     };
     need("nodes", answer.at("nodes"), mesh.point_count());
@@ -216,7 +216,7 @@ Result<Mesh> read_converted(const std::string& path, const std::string& format, 
 } catch (const Exception& problem) {
     return problem.error();
 } catch (const Json::exception&) {
-    return file_error(path, "meshio gave no answer that can be read");
+    return file_error("tool.failed", path, "meshio gave no answer that can be read");
 }
 
 std::vector<std::string> converted_files(const std::string& path) {

@@ -61,11 +61,14 @@ bool is_rounded(std::string_view text, double value) {
 [[noreturn]] void refuse_coordinate(std::string_view field, std::size_t axis, char separator) {
     const std::string what = std::string("bad coordinate ") + "xyz"[axis];
     if (field.empty())
-        refuse_file({}, what, "a number", "nothing", std::string("fill it in, or remove the line") + or_nan_for_it);
+        throw Exception(
+            about(nonfinite_points, file_error("file.number", {}, what, "a number", "nothing",
+                                               std::string("fill it in, or remove the line") + or_nan_for_it)));
     const Complaint c = about_real(field, std::string("remove the point, give it coordinates") + or_nan_for_it,
                                    "separate the fields by " + separator_name(separator) +
                                        " throughout, as in the first line; put # before lines that are no points");
-    refuse_file({}, what, c.expected, base::quoted(field), c.remedy);
+    throw Exception(
+        about(nonfinite_points, file_error("file.number", {}, what, c.expected, base::quoted(field), c.remedy)));
 }
 
 /// Appends the value of a carried column; false if it is none of its type.
@@ -100,14 +103,16 @@ void parse_line(std::string_view line, bool whole, const CsvLayout& layout, std:
         const int role = layout.role_of[i];
         const char* const end = field.data() + field.size();
         if (role == CsvLayout::must_be_empty && !field.empty())
-            refuse_file({}, "a value after the last separator", "none, as in the first line", base::quoted(field),
-                        "say which columns are the coordinates, such as options.columns 1,2,3");
+            throw Exception(about("options.columns",
+                                  file_error("file.syntax", {}, "a value after the last separator",
+                                             "none, as in the first line", base::quoted(field),
+                                             "say which columns are the coordinates, such as options.columns 1,2,3")));
         if (role < 0) continue;
         if (role >= CsvLayout::first_kept) {
             const auto k = static_cast<std::size_t>(role - CsvLayout::first_kept);
             const char* const kind = layout.kept[k].type == Column::Type::integer ? "an integer" : "a number";
             if (!append_value(carried[k], cutter, field))
-                refuse_file({}, "bad value of column " + base::quoted(layout.kept[k].name),
+                refuse_file("file.changed", {}, "bad value of column " + base::quoted(layout.kept[k].name),
                             std::string(kind) + ", as in a first pass", base::quoted(field),
                             "do not change the file while it is read");
             // A text may go on behind blanks, but not where these separate.
@@ -160,7 +165,7 @@ bool looks_numeric(std::string_view field) {
 
 CsvLine cut_first_line(std::string_view line, const LinePlace& place) {
     if (line.find('\r') != std::string_view::npos)
-        refuse_line(place.file, place.line, "lines end with CR alone", "LF or CR LF", "CR alone",
+        refuse_line("file.encoding", place.file, place.line, "lines end with CR alone", "LF or CR LF", "CR alone",
                     "save the file with LF or CR LF as line ends");
     CsvLine out{.separator = separator_of(line)};
     FieldCutter cutter(line, out.separator);
@@ -250,7 +255,7 @@ void TypeOfTexts::see(std::string_view text) {
 void check_cut(const FieldCutter& cutter, std::string_view line, std::size_t count, const CsvLayout& layout,
                const LinePlace& place) {
     if (cutter.malformed())
-        refuse_line(place.file, place.line, "a quoted field is not closed",
+        refuse_line("file.syntax", place.file, place.line, "a quoted field is not closed",
                     "a closing quote, and then a separator or the end of the line", base::quoted(line),
                     "close the quote on the same line; double the quotes inside");
     const std::size_t fields = layout.role_of.size();
@@ -258,7 +263,8 @@ void check_cut(const FieldCutter& cutter, std::string_view line, std::size_t cou
     const bool commas = layout.separator == ',' && count > fields;
     if (count != fields)
         refuse_line(
-            place.file, place.line, std::string("too ") + (count < fields ? "few" : "many") + " fields in a line",
+            "file.syntax", place.file, place.line,
+            std::string("too ") + (count < fields ? "few" : "many") + " fields in a line",
             std::to_string(fields) + ", separated by " + separator_name(layout.separator) + ", as in the first line",
             std::to_string(count),
             std::string("give every line the same columns; put fields that hold a separator in double quotes") +

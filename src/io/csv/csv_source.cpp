@@ -33,7 +33,7 @@ public:
             piece_count_ = 1;
             return;
         }
-        refuse_file(lines_.name(), "the file is empty", "a header line or a point",
+        refuse_file("file.empty", lines_.name(), "the file is empty", "a header line or a point",
                     lines_.number() == 0 ? "nothing" : "blank lines and comments",
                     "write the file again; a file with a header only is a file without points");
     }
@@ -46,7 +46,7 @@ private:
         std::size_t taken = 0;
         while (taken != max) {
             if (piece_ == piece_count_) {
-                if (!pending_.what.empty()) throw Exception(pending_);
+                if (pending_) throw Exception(*pending_);
                 if (!parse_more()) break;
                 continue;
             }
@@ -101,7 +101,7 @@ private:
     std::vector<std::string_view> texts_;
     std::vector<CsvPiece> pieces_;  // those from `piece_` on have points to give, the first of them from `given_` on
     std::size_t piece_ = 0, piece_count_ = 0, given_ = 0;
-    Error pending_;  // behind the points that are left
+    std::optional<Error> pending_;  // behind the points that are left
 };
 
 /// The formats of the carried columns, from all their values: a first pass over the file.
@@ -144,8 +144,9 @@ std::vector<ColumnFormat> formats_of_all(CsvSource source, const std::string& pa
 Source open_csv_source(const std::string& path, int dimension, const PointOptions& options) {
     if (!options.typed || options.keep.empty()) return std::make_unique<CsvSource>(path, dimension, options);
     if (is_read_once(path))
-        refuse_file(path == "-" ? "standard input" : path, "the types of columns cannot be found in a stream",
-                    "a regular file, which can be read twice", "a pipe or device",
+        refuse_file("file.pipe", path == "-" ? "standard input" : path,
+                    "the types of columns cannot be found in a stream", "a regular file, which can be read twice",
+                    "a pipe or device",
                     "write CSV, which carries columns as they are, or save the points to a file first");
     Notes notes;
     const std::vector<ColumnFormat> formats = formats_of_all(CsvSource(path, dimension, options), path, notes);

@@ -35,18 +35,19 @@ void LineReader::skip_mark(bool standard_input) {
     while (end_ < 3 && !ended_) refill();
     const std::string_view head(buffer_.data(), end_);
     if (head.starts_with("\x93NU"))
-        refuse_file(name_, "this is an NPY file", "text: a point a line", {},
+        refuse_file("file.format", name_, "this is an NPY file", "text: a point a line", {},
                     "name a file that ends in .npy: a stream or a file of another name is read as CSV");
     const OtherFormat* const packed = packed_format(head);
     if (head.starts_with("\x1f\x8b") || (packed != nullptr && standard_input))
-        refuse_file(name_, packed != nullptr ? std::string("this is ") + packed->what : "this is packed by gzip",
+        refuse_file("file.packed", name_,
+                    packed != nullptr ? std::string("this is ") + packed->what : "this is packed by gzip",
                     "text: a point a line", {}, "unpack it first: gunzip, xz -dc, ...");
     if (packed != nullptr) throw Exception(other_format_error(*packed, name_));
     // A smaller part of the file, as a pipe gives, is decided line by line.
     base::check_beginning(head.substr(0, base::first_block), base::Text::words, name_).value();
     if (head.starts_with("\xFF\xFE") || head.starts_with("\xFE\xFF"))
-        refuse_line(name_, 1, "the text is not in UTF-8", "UTF-8 or ASCII", "a byte-order mark of UTF-16",
-                    "save the file as UTF-8");
+        refuse_line("file.encoding", name_, 1, "the text is not in UTF-8", "UTF-8 or ASCII",
+                    "a byte-order mark of UTF-16", "save the file as UTF-8");
     if (head.starts_with("\xEF\xBB\xBF")) begin_ = 3;
 }
 
@@ -57,8 +58,9 @@ void LineReader::refill() {
         begin_ = 0;
     }
     if (end_ == longest_line)
-        refuse_line(name_, number_ + 1, "a line is too long", "at most " + std::to_string(longest_line) + " bytes",
-                    "more", "check that this is a text file, with a line end after each point");
+        refuse_line("file.too-large", name_, number_ + 1, "a line is too long",
+                    "at most " + std::to_string(longest_line) + " bytes", "more",
+                    "check that this is a text file, with a line end after each point");
     if (end_ + 1 == buffer_.size()) buffer_.resize(longest_line + 1);  // the file has grown meanwhile
     const ssize_t got = TEMP_FAILURE_RETRY(::read(file_.number, buffer_.data() + end_, buffer_.size() - 1 - end_));
     if (got < 0) throw Exception(base::read_failure(name_, errno));

@@ -34,7 +34,7 @@ CsvLayout settle(std::string_view line, const std::string& column, const LinePla
     field.components = static_cast<int>(columns.size());
     for (int c = 0; c < field.components; ++c) layout.role_of[columns[static_cast<std::size_t>(c)]] = c;
     if (!columns.empty()) return layout;
-    refuse_line(place.file, place.line, "no such column", base::quoted(column), listed(cut.fields),
+    refuse_line("column.unknown", place.file, place.line, "no such column", base::quoted(column), listed(cut.fields),
                 base::did_you_mean(column, cut.fields, "name a column of the first line, or say its place, from 1"));
 }
 
@@ -49,7 +49,7 @@ void take_line(std::string_view line, bool whole, const CsvLayout& layout, const
         if (component < 0) continue;
         const auto x = base::parse_double(text);
         if (!x || is_inexact(text, *x))
-            refuse_line(place.file, place.line, "a value of field \"" + field.name + '"',
+            refuse_line("file.number", place.file, place.line, "a value of field \"" + field.name + '"',
                         x ? "an integer that a double holds exactly" : "a number", base::quoted(text),
                         x ? "write it with a decimal point to round it" : "mend or remove the line");
         field.data[before + static_cast<std::size_t>(component)] = *x;
@@ -94,8 +94,8 @@ Field read_text(Field field, const std::string& path, std::string_view bytes) {
     if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3);
     const char* const file_end = bytes.data() + bytes.size();
     std::size_t line_number = 0, components = 0;
-    const auto refuse = [&](const std::string& expected, const std::string& found, const char* remedy) {
-        refuse_line(path, line_number, "a row of field \"" + field.name + '"', expected, found, remedy);
+    const auto refuse = [&](ErrorCode code, const std::string& expected, const std::string& found, const char* remedy) {
+        refuse_line(code, path, line_number, "a row of field \"" + field.name + '"', expected, found, remedy);
     };
     while (!bytes.empty()) {
         const std::string_view line = bytes.substr(0, bytes.find('\n'));
@@ -104,12 +104,12 @@ Field read_text(Field field, const std::string& path, std::string_view bytes) {
         const std::vector<std::string_view> words = cut_fields(line.substr(0, line.find('#')), " \t\r", ",;");
         if (words.empty()) continue;
         if (has_mixed_separators(words))
-            refuse("one way to part numbers: blanks, commas or semicolons", base::quoted(line),
+            refuse("file.syntax", "one way to part numbers: blanks, commas or semicolons", base::quoted(line),
                    "if commas are decimal ones, write points");
         for (const std::string_view word : words) {
             const auto x = base::parse_double(word);
             if (!x || is_inexact(word, *x))
-                refuse(x ? "an integer that a double holds exactly" : "numbers", base::quoted(word),
+                refuse("file.number", x ? "an integer that a double holds exactly" : "numbers", base::quoted(word),
                        x ? "write it with a decimal point to round it"
                          : "write one row of numbers per node or cell; start header lines with #");
             if (word.data() + word.size() == file_end) throw Exception(base::unended_number(path, line_number));
@@ -117,8 +117,8 @@ Field read_text(Field field, const std::string& path, std::string_view bytes) {
         }
         if (components == 0) components = words.size();
         if (words.size() != components)
-            refuse(std::to_string(components) + " numbers, as in the first row", std::to_string(words.size()),
-                   "rows have one number for each component of the field");
+            refuse("file.count", std::to_string(components) + " numbers, as in the first row",
+                   std::to_string(words.size()), "rows have one number for each component of the field");
     }
     field.components = static_cast<int>(std::max<std::size_t>(components, 1));
     return field;
@@ -132,7 +132,8 @@ std::vector<std::size_t> components_of(const NpyTable& table, bool structured, c
         columns = columns_of_field(names, place_of(column) && !structured ? "column" + column : column);
     for (std::size_t c = 0; column.empty() && !structured && c < names.size(); ++c) columns.push_back(c);
     if (!columns.empty()) return columns;
-    refuse_file(path, column.empty() ? "the type of field \"" + field.name + '"' : "no such column",
+    refuse_file(column.empty() ? ErrorCode("field.type") : ErrorCode("column.unknown"), path,
+                column.empty() ? "the type of field \"" + field.name + '"' : "no such column",
                 column.empty() ? "an array of numbers" : base::quoted(column),
                 structured && column.empty() ? "a structured array of " + listed(names) : listed(names),
                 base::did_you_mean(column, names, "name one of them: --field " + field.name + "=" + path + ":NAME"));
@@ -144,15 +145,15 @@ Field read_npy(Field field, const std::string& path, const std::string& column, 
     constexpr std::uint64_t max_components = 1U << 16;
     if (!file.header().structured &&
         (shape.empty() || shape.size() > 2 || (shape.size() == 2 && (shape[1] < 1 || shape[1] > max_components))))
-        refuse_file(path, "the shape of field \"" + field.name + '"', "(rows,) or (rows, components)", as_tuple(shape),
-                    "save a.reshape(len(a), -1)");
+        refuse_file("field.size", path, "the shape of field \"" + field.name + '"', "(rows,) or (rows, components)",
+                    as_tuple(shape), "save a.reshape(len(a), -1)");
     const NpyTable& table = file.make_table();
     const std::vector<std::size_t> columns = components_of(table, file.header().structured, field, path, column);
     for (const std::size_t c : columns) {
         const NpyType& type = table.columns[c].type;
         if (!type.is_number())
-            refuse_file(path, "the type of field \"" + field.name + '"', "floats of 2, 4 or 8 bytes, or integers",
-                        base::quoted(type.text), "save a.astype('f8')");
+            refuse_file("field.type", path, "the type of field \"" + field.name + '"',
+                        "floats of 2, 4 or 8 bytes, or integers", base::quoted(type.text), "save a.astype('f8')");
     }
     if (const NpyType& type = table.columns[columns.front()].type; !type.is_double())
         notes.push_back(

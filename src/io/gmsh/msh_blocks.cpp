@@ -43,11 +43,11 @@ void walk_blocks(Walk& walk, int version, const std::string& what, const char* k
         block.kind = walk.integer(kind);
         block.count = walk.size(one.c_str());
         if (static_cast<std::uint64_t>(block.count) > most - found)
-            walk.refuse("too many " + what, "at most 2147483647", "more");
+            walk.refuse("mesh.too-large", "too many " + what, "at most 2147483647", "more");
         add(block);
     }
     if (static_cast<std::uint64_t>(total) != found)
-        walk.refuse("the blocks do not add up", std::to_string(total) + " " + what, std::to_string(found),
+        walk.refuse("file.count", "the blocks do not add up", std::to_string(total) + " " + what, std::to_string(found),
                     "mend the numbers of " + what);
     walk.need_end();
 }
@@ -92,9 +92,9 @@ NodeRows find_rows(const MshFile& file, Walk& walk, bool parametric) {
     if (file.version() != 22) {
         const auto add = [&](const BlockHeader& block) {
             if (block.dimension < 0 || block.dimension > 3)
-                walk.refuse("bad dimension of an entity", "0 to 3", std::to_string(block.dimension));
+                walk.refuse("file.syntax", "bad dimension of an entity", "0 to 3", std::to_string(block.dimension));
             if (block.kind != 0 && block.kind != 1)
-                walk.refuse("bad mark of parameters", "0 or 1", std::to_string(block.kind));
+                walk.refuse("file.syntax", "bad mark of parameters", "0 or 1", std::to_string(block.kind));
             const std::int64_t passed = block.kind * block.dimension;
             add_rows(walk, file.version(), block.count, static_cast<std::size_t>(passed), rows);
         };
@@ -102,7 +102,7 @@ NodeRows find_rows(const MshFile& file, Walk& walk, bool parametric) {
         return rows;
     }
     const std::int64_t count = walk.count_line("the number of nodes");
-    if (count > INT32_MAX) walk.refuse("too many nodes", "at most 2147483647", "more");
+    if (count > INT32_MAX) walk.refuse("mesh.too-large", "too many nodes", "at most 2147483647", "more");
     if (parametric) {
         find_parametric_rows(file, walk, count, rows);
     } else {
@@ -114,14 +114,14 @@ NodeRows find_rows(const MshFile& file, Walk& walk, bool parametric) {
 
 bool take_tag(auto& row, std::int64_t& tag) {
     return row.tag(tag, "the tag of a node") &&
-           (tag >= 0 || row.refuse({"bad tag of a node", "a number that is not negative", tag}));
+           (tag >= 0 || row.refuse({"mesh.numbering", "bad tag of a node", "a number that is not negative", tag}));
 }
 
 const ElementType* known(const Walk& walk, std::int64_t number) {
     const ElementType* const type = element_type(number);
     if (type == nullptr)
-        walk.refuse("an unknown type of elements", "a type of Gmsh's documentation", std::to_string(number),
-                    "write the mesh with elements of order 1 or 2");
+        walk.refuse("mesh.cell-type", "an unknown type of elements", "a type of Gmsh's documentation",
+                    std::to_string(number), "write the mesh with elements of order 1 or 2");
     return type;
 }
 
@@ -210,7 +210,7 @@ void find_rows_alike(const MshFile& file, Walk& walk, std::size_t most, MshEleme
     row.integer("the tag of an element");
     const ElementType* const type = known(row, row.integer("the type of an element"));
     const std::int64_t tags = row.integer("the number of tags of an element");
-    if (tags < 0) row.refuse("bad number", "the number of tags of an element", std::to_string(tags));
+    if (tags < 0) row.refuse("file.number", "bad number", "the number of tags of an element", std::to_string(tags));
     row.skip_rows(tags, 1, 4, "tags of an element");
     row.skip_rows(static_cast<std::int64_t>(type->nodes), 1, 4, "nodes of an element");
     const auto tag_count = static_cast<std::size_t>(tags), words = 3 + tag_count + type->nodes;
@@ -225,7 +225,7 @@ void find_group(Walk& walk, std::size_t most, std::int64_t count, MshElements& e
     const std::int64_t tags = walk.integer("the number of tags of an element");
     const auto rows = static_cast<std::size_t>(size), tag_count = static_cast<std::size_t>(tags);
     if (size < 1 || tags < 0 || rows > most)
-        walk.refuse("bad header of elements", std::to_string(count) + " elements in all",
+        walk.refuse("file.count", "bad header of elements", std::to_string(count) + " elements in all",
                     std::to_string(size) + " with " + std::to_string(tags) + " tags");
     append_block(walk, elements,
                  {.type = type, .tags = tag_count, .run = {.count = rows, .bytes = 4 * (1 + tag_count + type->nodes)}});
@@ -238,11 +238,11 @@ MshNodes read_msh_nodes(const MshFile& file) {
     const bool parametric = section == nullptr && file.version() == 22;
     if (parametric) section = file.find("ParametricNodes");
     if (section == nullptr)
-        refuse_file(file.path(), "the file contains no nodes", "a section $Nodes", "none",
+        refuse_file("mesh.empty", file.path(), "the file contains no nodes", "a section $Nodes", "none",
                     "name a file with a mesh; this one may contain views or a geometry only");
     if (parametric && file.binary())
-        file.refuse(section->name.data(), "binary $ParametricNodes", "$Nodes", "nodes with parameters",
-                    "convert it with " + gmsh_command(file.path()));
+        file.refuse("file.unsupported", section->name.data(), "binary $ParametricNodes", "$Nodes",
+                    "nodes with parameters", "convert it with " + gmsh_command(file.path()));
     Walk walk(file, *section);
     const NodeRows rows = find_rows(file, walk, parametric);
 
@@ -271,8 +271,8 @@ MshNodes read_msh_nodes(const MshFile& file) {
     });
     nodes.index = TagIndex(tags);
     if (const auto twice = nodes.index.first_twice; twice)
-        file.refuse(section->name.data(), "two nodes with the tag " + std::to_string(tags[*twice]), "each tag once",
-                    "it again at node " + std::to_string(*twice) + " from 0",
+        file.refuse("mesh.numbering", section->name.data(), "two nodes with the tag " + std::to_string(tags[*twice]),
+                    "each tag once", "it again at node " + std::to_string(*twice) + " from 0",
                     "number the nodes anew: Gmsh itself cannot read such a file");
     return nodes;
 }
@@ -280,7 +280,7 @@ MshNodes read_msh_nodes(const MshFile& file) {
 MshElements find_msh_elements(const MshFile& file) {
     const MshSection* const section = file.find("Elements");
     if (section == nullptr)
-        refuse_file(file.path(), "the file contains no elements", "a section $Elements", "none",
+        refuse_file("mesh.empty", file.path(), "the file contains no elements", "a section $Elements", "none",
                     "name a file with a mesh; this one may contain points only");
     Walk walk(file, *section);
     MshElements elements;
@@ -298,7 +298,7 @@ MshElements find_msh_elements(const MshFile& file) {
     }
     const std::int64_t count = walk.count_line("the number of elements");
     if (count > INT32_MAX)
-        walk.refuse("bad number", "the number of elements, at most 2147483647", std::to_string(count));
+        walk.refuse("file.number", "bad number", "the number of elements, at most 2147483647", std::to_string(count));
     while (elements.count < static_cast<std::size_t>(count)) {
         const std::size_t most = static_cast<std::size_t>(count) - elements.count;
         walk.text() ? find_rows_alike(file, walk, most, elements) : find_group(walk, most, count, elements);

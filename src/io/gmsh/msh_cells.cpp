@@ -76,8 +76,8 @@ TypeCounts choose(const MshFile& file, TypeCounts counts) {
     std::erase_if(counts, [&](const auto& one) { return one.first->dimension() < dimension; });
     if (dimension > 1) return counts;
     const std::string found = counted_types(counts);
-    refuse_file(file.path(), "the file contains no mesh", "cells that fill space, or polygons in the plane z = 0",
-                found.empty() ? "no elements" : found,
+    refuse_file("mesh.empty", file.path(), "the file contains no mesh",
+                "cells that fill space, or polygons in the plane z = 0", found.empty() ? "no elements" : found,
                 "mesh the geometry in Gmsh; if there are physical groups, it saves these alone: give the volume one, "
                 "or add -save_all");
 }
@@ -87,8 +87,8 @@ bool take_node(auto& row, const TagIndex& nodes, Mesh::Index& node) {
     std::int64_t tag = 0;
     if (!row.tag(tag, "the tag of a node")) return false;
     node = nodes.find(tag);
-    return node >= 0 ||
-           row.refuse({"an unknown node", "the tag of a node of $Nodes", tag, "check that the file is complete"});
+    return node >= 0 || row.refuse({"mesh.node-index", "an unknown node", "the tag of a node of $Nodes", tag,
+                                    "check that the file is complete"});
 }
 
 /// Numbers before the nodes of an element.
@@ -100,7 +100,7 @@ struct Head {
 bool take_head(auto& row, int version, const ElementBlock& block, Head& head) {
     if (!row.tag(head.tag, "the tag of an element")) return false;
     if (version == 41 && head.tag < 0)
-        return row.refuse({"bad tag of an element", "a number that is not negative", head.tag});
+        return row.refuse({"mesh.numbering", "bad tag of an element", "a number that is not negative", head.tag});
     if (version != 22) return true;
     std::int64_t value = 0;
     for (int i = 0; row.text && i < 2; ++i) {  // the type and the number of tags, which are known

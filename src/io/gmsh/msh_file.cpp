@@ -60,42 +60,47 @@ void MshFile::read_format() {
     const char* at = begin();
     const char* const first = at;
     const std::string_view head = trimmed(take_line(at, end()));
-    if (head == "$NOD") refuse(first, "a .msh file of version 1", "version 2.2 or 4.1", "\"$NOD\"", convert_remedy);
+    if (head == "$NOD")
+        refuse("file.version", first, "a .msh file of version 1", "version 2.2 or 4.1", "\"$NOD\"", convert_remedy);
     if (head.starts_with("$MeshFormat") && head.find('\r') != std::string_view::npos)
-        refuse(first, "the lines have other ends", "LF or CR LF", "CR alone", "convert the ends of the lines");
+        refuse("file.encoding", first, "the lines have other ends", "LF or CR LF", "CR alone",
+               "convert the ends of the lines");
     const bool blank = head.empty() && first != end();
     if (head != "$MeshFormat")
-        refuse(first, "not a file of Gmsh", "a first line \"$MeshFormat\"",
+        refuse("file.format", first, "not a file of Gmsh", "a first line \"$MeshFormat\"",
                blank ? "an empty line" : word_at(first, end()),
                blank ? "remove the empty lines at the beginning" : "check the path");
     const char* const line = at;
     const std::vector<std::string_view> words = cut_fields(take_line(at, end()), " \t\r", "");
     after_format_ = at;
     if (words.size() != 3)
-        refuse(line, "bad $MeshFormat", "version, file type and data size, such as 4.1 0 8", word_at(line, end()),
-               save_remedy);
+        refuse("file.syntax", line, "bad $MeshFormat", "version, file type and data size, such as 4.1 0 8",
+               word_at(line, end()), save_remedy);
     // As a number: some write 2.200000.
     constexpr std::array<std::pair<double, int>, 5> versions{{{2, 22}, {2.1, 22}, {2.2, 22}, {4, 40}, {4.1, 41}}};
     const double number = real_of_word(words[0], true).value_or(0);
     const auto* const version = std::ranges::find_if(versions, [&](const auto& v) { return v.first == number; });
     if (version == versions.end())
-        refuse(line, "unknown version of the format", "2.2 or 4.1", base::quoted(words[0]),
+        refuse("file.version", line, "unknown version of the format", "2.2 or 4.1", base::quoted(words[0]),
                words[0].starts_with("2.") || words[0].starts_with("3") ? convert_remedy : save_remedy);
     version_ = version->second;
     if (words[1] != "0" && words[1] != "1")
-        refuse(line, "bad file type in $MeshFormat", "0 (text) or 1 (binary)", base::quoted(words[1]), save_remedy);
+        refuse("file.syntax", line, "bad file type in $MeshFormat", "0 (text) or 1 (binary)", base::quoted(words[1]),
+               save_remedy);
     if (words[1] == "0") return;
     if (words[2] != "8")
-        refuse(line, "bad data size in $MeshFormat", "8 in a binary file", base::quoted(words[2]), convert_remedy);
+        refuse("file.version", line, "bad data size in $MeshFormat", "8 in a binary file", base::quoted(words[2]),
+               convert_remedy);
     if (version_ == 40)  // of which Gmsh itself writes text alone
-        refuse(line, "a binary file of version 4.0", "version 4.1 or 2.2", base::quoted(words[0]), save_remedy);
+        refuse("file.version", line, "a binary file of version 4.0", "version 4.1 or 2.2", base::quoted(words[0]),
+               save_remedy);
     binary_ = true;
     std::int32_t one = 0;
     if (end() - at >= 4) std::memcpy(&one, at, 4);
     swapped_ = one == 0x01000000;
     if (one != 1 && !swapped_)
-        refuse(line, "bad byte order mark in $MeshFormat", "the number 1 in 4 bytes after this line", "other bytes",
-               "check whether the file was changed on the way, such as by a transfer as text");
+        refuse("file.format", line, "bad byte order mark in $MeshFormat", "the number 1 in 4 bytes after this line",
+               "other bytes", "check whether the file was changed on the way, such as by a transfer as text");
 }
 
 void MshFile::add_section(const char* at, const char* stop) {
@@ -103,8 +108,8 @@ void MshFile::add_section(const char* at, const char* stop) {
     const std::string_view name = trimmed(take_line(body, end())).substr(1);
     if (stop == nullptr) {
         const std::string shown = base::printable(name.substr(0, 40));
-        refuse(at, "section $" + shown + " has no end", "a line \"$End" + shown + "\"", "none in the rest of the file",
-               "the file may be cut short: write it again");
+        refuse("file.truncated", at, "section $" + shown + " has no end", "a line \"$End" + shown + "\"",
+               "none in the rest of the file", "the file may be cut short: write it again");
     }
     sections_.push_back({name, {body, static_cast<std::size_t>(stop - body)}});
 }
@@ -116,8 +121,8 @@ void MshFile::list_text_sections() {
     const auto no_text_before = [&](const char* stop) {
         while (from != stop && is_white(*from)) ++from;
         if (from != stop)
-            refuse(from, "text between sections", "a line \"$...\" that begins a section", word_at(from, end()),
-                   "remove it, or put it into a section $Comments");
+            refuse("file.syntax", from, "text between sections", "a line \"$...\" that begins a section",
+                   word_at(from, end()), "remove it, or put it into a section $Comments");
     };
     for (auto mark = marks.begin(); mark != marks.end(); ++mark) {
         const char* const begins = *mark;
@@ -135,7 +140,7 @@ void MshFile::list_binary_sections() {
         while (at != end() && is_white(*at)) ++at;
         if (at == end()) return;
         if (*at != '$')
-            refuse(at, "bytes between sections", "\"$\", which begins a section", word_at(at, end()),
+            refuse("file.syntax", at, "bytes between sections", "\"$\", which begins a section", word_at(at, end()),
                    "the file may be damaged: write it again");
         const char* body = at;
         const std::string mark = "$End" + std::string(trimmed(take_line(body, end())).substr(1));
@@ -149,7 +154,7 @@ void MshFile::check_sections() const {
     for (const MshSection& section : sections_) {
         const std::string_view name = section.name;
         if (std::ranges::count(once_sections, name) != 0 && find(name) != &section)
-            refuse(name.data(), "a second section $" + std::string(name), "one of each kind", "two",
+            refuse("file.duplicate", name.data(), "a second section $" + std::string(name), "one of each kind", "two",
                    "keep one mesh a file");
     }
 }
@@ -251,7 +256,8 @@ const char* skip_words(const char* at, const char* end, std::size_t& count) {
 }
 
 void Walk::refuse_word(std::string expected, std::string found) const {
-    file_->refuse(at_, std::string(bad_) + " $" + std::string(section_->name), std::move(expected), std::move(found));
+    file_->refuse("file.number", at_, std::string(bad_) + " $" + std::string(section_->name), std::move(expected),
+                  std::move(found));
 }
 
 /// A number in binary form may reach into the end of the section, "$End..." and its name, which has 9 bytes or more.
@@ -263,7 +269,7 @@ Number Walk::step(const char* name, const Take& take) {
             at_ = row.at();
             refuse_word(name, word_at(at_, file_->end()));
         }
-        if (row.at() > end()) refuse("the section ends too early", name, "the end of the section");
+        if (row.at() > end()) refuse("file.truncated", "the section ends too early", name, "the end of the section");
         at_ = row.at();
     };
     text_ ? from(NumberScanner<true>(*file_, at_)) : from(NumberScanner<false>(*file_, at_));
@@ -279,7 +285,7 @@ std::int64_t Walk::size(const char* name) {
     const auto value = step<std::int64_t>(name, [&](auto& row, auto& to) { return row.tag(to, name); });
     if (value >= 0) return value;
     at_ = at;
-    refuse("bad number", name, std::to_string(value));
+    refuse("file.number", "bad number", name, std::to_string(value));
 }
 
 double Walk::real(const char* name, bool any) {
@@ -295,7 +301,7 @@ std::int64_t Walk::count_line(const char* name) {
     at_ = after;
     const std::string_view rest = line();
     if (value < 0 || rest.find_first_not_of(" \t") != std::string_view::npos)
-        refuse("bad number", name, base::quoted({after, rest.size()}));
+        refuse("file.number", "bad number", name, base::quoted({after, rest.size()}));
     return value;
 }
 
@@ -318,14 +324,14 @@ void Walk::skip_rows(std::int64_t rows, std::size_t numbers, std::size_t bytes, 
         if (passed + rest == wanted) return move_to(after);
         found = std::to_string((passed + rest) / numbers);
     }
-    refuse("the section ends too early", std::to_string(rows) + " " + name, found,
+    refuse("file.truncated", "the section ends too early", std::to_string(rows) + " " + name, found,
            "the file may be cut short: write it again, or mend the number");
 }
 
 void Walk::need_end() {
     while (at_ != end() && (is_blank(*at_) || *at_ == '\n' || *at_ == '\r')) ++at_;
     if (at_ != end())
-        refuse("more than its header tells", "the end of the section",
+        refuse("file.count", "more than its header tells", "the end of the section",
                text_ ? word_at(at_, end()) : std::to_string(end() - at_) + " more bytes",
                "mend the numbers at the beginning of the section");
 }
@@ -342,7 +348,7 @@ void refuse_row(const MshFile& file, std::string_view section, const char* at, c
         std::string_view rest(at, static_cast<std::size_t>(file.end() - at));
         remedy = about_real(next_word(rest), {}, {}).remedy;
     }
-    file.refuse(at, what, fault.expected, found, remedy);
+    file.refuse(fault.code, at, what, fault.expected, found, remedy);
 }
 
 }  // namespace barycert::io

@@ -85,9 +85,9 @@ public:
 
     /// As refuse_line(), of the place `at`, whose line is told where the file is text.
     template <class... Parts>
-    [[noreturn]] void refuse(const char* at, Parts&&... parts) const {
+    [[noreturn]] void refuse(ErrorCode code, const char* at, Parts&&... parts) const {
         const bool text = !binary_ || at < after_format_;
-        refuse_line(path_, text ? line_of(bytes_, at) : 0, std::forward<Parts>(parts)...);
+        refuse_line(code, path_, text ? line_of(bytes_, at) : 0, std::forward<Parts>(parts)...);
     }
 
 private:
@@ -122,6 +122,7 @@ std::string word_at(const char* at, const char* end);
 
 /// Why a row is refused. The parts are literals, for rows are refused where nothing else may be slow.
 struct RowFault {
+    ErrorCode code = "file.number";
     const char* what = "bad number";
     const char* expected = "a number";
     std::optional<std::int64_t> number = {};  ///< else what stands in the file is told
@@ -225,7 +226,7 @@ void parse_runs(const MshFile& file, std::string_view section, std::span<const R
     if (base::share_work(file.threads(), parts.size(), [&](std::size_t p) { return read(parts[p], false); })) return;
     // Again in their order: the first one is told, whatever the threads did.
     for (const RunPart& part : parts) read(part, true);
-    file.refuse(file.end(), "a row is refused once and not again");
+    file.refuse("internal.error", file.end(), "a row is refused once and not again");
 }
 
 /// Walks through a section from its beginning: reads headers number by number, passes rows over. Refuses what is not
@@ -254,8 +255,8 @@ public:
     void need_end();
 
     template <class... Parts>
-    [[noreturn]] void refuse(const std::string& what, Parts&&... parts) const {
-        file_->refuse(at_, what + " in $" + std::string(section_->name), std::forward<Parts>(parts)...);
+    [[noreturn]] void refuse(ErrorCode code, const std::string& what, Parts&&... parts) const {
+        file_->refuse(code, at_, what + " in $" + std::string(section_->name), std::forward<Parts>(parts)...);
     }
     /// Refuses what stands here as a word that is no number.
     [[noreturn]] void refuse_word(std::string expected, std::string found) const;

@@ -137,7 +137,7 @@ private:
             }
             const auto i = static_cast<std::size_t>(to[row]);
             if (has_[i] == 2)
-                file_.refuse(view.section->name.data(),
+                file_.refuse("mesh.numbering", view.section->name.data(),
                              "two values of " + base::quoted(view.field) + " for one " + targets_.one,
                              "each tag once in a section", "tag " + std::to_string(tags[row]) + " again");
             has_[i] = 2;

@@ -222,7 +222,7 @@ Mesh read_whole(const MshFile& file, const GmshReadOptions& options, InSpace* sp
     if (std::any_of(views.begin(), views.end(), [](const MshView& v) { return v.of == MshView::Of::elements; })) {
         const TagIndex index(cells.tags);
         if (const auto twice = index.first_twice; twice)
-            file.refuse(file.find("Elements")->name.data(),
+            file.refuse("mesh.numbering", file.find("Elements")->name.data(),
                         "two cells with the tag " + std::to_string(cells.tags[*twice]),
                         "each tag once, for $ElementData refers to them",
                         "it again at cell " + std::to_string(*twice) + " from 0", "give each element a tag of its own");
@@ -258,7 +258,7 @@ Result<std::vector<GmshStep>> gmsh_steps(const std::string& path) {
 
 Result<std::vector<double>> read_gmsh_points(const std::string& path, int dimension, int threads) {
     if (dimension != 2 && dimension != 3)
-        return file_error(path, "the dimension of points", "2 or 3", std::to_string(dimension));
+        return file_error("point.dimension", path, "the dimension of points", "2 or 3", std::to_string(dimension));
     return io::read_guarded(path, [&] {
         return io::to_points(io::read_msh_nodes(io::MshFile(path, threads)).points, dimension, path, {}, "node");
     });

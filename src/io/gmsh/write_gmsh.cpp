@@ -107,7 +107,8 @@ CellGroups group_cells(const Mesh& mesh, bool by_entity, const std::string& path
         const std::string& name = (*names)[i];
         if (group == 0 || name.empty()) continue;
         if (groups.names.emplace(group, name).first->second != name || name.find_first_of("\r\n") != std::string::npos)
-            refuse_file(path, "a name of physical group " + std::to_string(group) + " that cannot be written",
+            refuse_file("field.type", path,
+                        "a name of physical group " + std::to_string(group) + " that cannot be written",
                         "one name for all of its cells, on one line", base::quoted(name),
                         "correct the cell labels gmsh:physical_name");
     }
@@ -119,7 +120,7 @@ void check_names(const Mesh& mesh, const CellGroups& groups, const std::string& 
     const auto check = [&](std::set<std::string>& names, const std::string& name) {
         const bool fits = !name.empty() && name.find_first_of("\"\r\n") == std::string::npos;
         if (!fits || !names.insert(name).second)
-            refuse_file(path, "a name of a field that cannot be written",
+            refuse_file("field.type", path, "a name of a field that cannot be written",
                         "names that differ, without quotes and line breaks",
                         name.empty() ? "no name" : base::quoted(name) + (fits ? " twice" : ""), "rename the field");
     };
@@ -306,7 +307,8 @@ private:
 Status write_gmsh(const Mesh& mesh, const std::string& path, const GmshWriteOptions& options) {
     const ExactEnvironment environment;
     if (const char* const fault = mesh::inconsistency(mesh, mesh::FieldValues::any); fault != nullptr)
-        return file_error(path, std::string("cannot write the mesh: ") + fault, {}, {}, "correct the mesh in memory");
+        return file_error("mesh.inconsistent", path, std::string("cannot write the mesh: ") + fault, {}, {},
+                          "correct the mesh in memory");
     return io::status_of([&] {
         const io::CellGroups groups = io::group_cells(mesh, options.version == GmshWriteOptions::Version::v41, path);
         io::check_names(mesh, groups, path);

@@ -88,7 +88,7 @@ struct MapWriterData {
     Status check(const TableView& rows) const {
         const std::size_t dimension = head.dimension, count = rows.row_count();
         if (rows.points.size() != dimension * count || rows.features.size() != count)
-            return file_error(name, "the arrays of a map do not fit together",
+            return file_error("argument.size", name, "the arrays of a map do not fit together",
                               std::to_string(dimension) + " coordinates, a cell and a feature a row",
                               std::to_string(rows.points.size()) + " coordinates, " + std::to_string(count) +
                                   " cells, " + std::to_string(rows.features.size()) + " features");
@@ -97,11 +97,12 @@ struct MapWriterData {
             const auto feature = static_cast<unsigned>(rows.features[i]);
             const char* const fault = map_row_fault(point, head.dimension, rows.cells[i], feature, head.cells);
             if (fault == nullptr) continue;
-            return file_error(
-                name, "row " + std::to_string(head.rows + pending.row_count() + i) + " is not valid in a map", fault,
-                "coordinates " + base::joined(std::span(point, dimension), " ", base::shortest) + ", cell " +
-                    std::to_string(rows.cells[i]) + ", feature " + std::to_string(feature),
-                "write results of a Locator on the same mesh");
+            return file_error("argument.value", name,
+                              "row " + std::to_string(head.rows + pending.row_count() + i) + " is not valid in a map",
+                              fault,
+                              "coordinates " + base::joined(std::span(point, dimension), " ", base::shortest) +
+                                  ", cell " + std::to_string(rows.cells[i]) + ", feature " + std::to_string(feature),
+                              "write results of a Locator on the same mesh");
         }
         return Done{};
     }
@@ -137,7 +138,7 @@ struct MapReaderData {
     MapReaderData(std::string path, base::InputFile input) : name(std::move(path)), file(std::move(input)) {}
 
     Error damage(std::string what, std::string expected, std::string found) const {
-        return file_error(name, std::move(what), std::move(expected), std::move(found),
+        return file_error("file.truncated", name, std::move(what), std::move(expected), std::move(found),
                           "create the map again, or copy it again");
     }
 
@@ -154,7 +155,7 @@ struct MapReaderData {
         const auto begin = static_cast<std::size_t>(std::min<std::uint64_t>(size, map_header_size));
         if (Status filled = fill(0, begin); !filled) return filled;
         if (size == 0 || !map_magic.starts_with(std::string_view(bytes).substr(0, map_magic.size())))
-            return file_error(name, "not a map", "a file written by barycert as a map",
+            return file_error("file.format", name, "not a map", "a file written by barycert as a map",
                               size == 0 ? "an empty file" : "other bytes at its beginning",
                               "name a map; the mesh and the points are other files");
         if (size < map_header_size)
@@ -163,8 +164,8 @@ struct MapReaderData {
         std::memcpy(&head, bytes.data(), sizeof head);
         // First, for the rest of the header may mean something else in another version.
         if (head.version != map_version)
-            return file_error(name, "a map of another version", "version " + std::to_string(map_version),
-                              "version " + std::to_string(head.version),
+            return file_error("file.version", name, "a map of another version",
+                              "version " + std::to_string(map_version), "version " + std::to_string(head.version),
                               "create the map again with this version, or read it with the version that wrote it");
         if (head.checksum != head.right_checksum() || (head.dimension != 2 && head.dimension != 3) || head.all > 1 ||
             head.taken > 7)
@@ -188,7 +189,7 @@ struct MapReaderData {
     Status check(const MapHeader& is, const char* cells) const {
         const bool alike = head.dimension == is.dimension && head.nodes == is.nodes && head.cells == is.cells;
         if (alike && head.taken != is.taken)
-            return file_error(name, "the map was made of cells taken otherwise", words_of(head.taken),
+            return file_error("map.cells", name, "the map was made of cells taken otherwise", words_of(head.taken),
                               words_of(is.taken),
                               "take them as the map does (interpolation, curved cells), or create the map again");
         if (alike && head.fingerprint == is.fingerprint) return Done{};
@@ -197,7 +198,7 @@ struct MapReaderData {
         };
         // In space they may be tetrahedra or triangles: the file does not tell.
         return file_error(
-            name, "the map was made for another mesh",
+            "map.mesh", name, "the map was made for another mesh",
             size_of(head.nodes, head.cells, head.dimension == 2 ? "triangles" : "cells"),
             alike ? "one of that size with other coordinates or cells" : size_of(is.nodes, is.cells, cells),
             "name the mesh of the map, or create the map again for this mesh");
@@ -248,9 +249,9 @@ struct MapReaderData {
     std::uint64_t row = 0;       // the first of the next block
     std::uint64_t checksum = 0;  // of the last block
     std::string bytes;
-    Table block;            // the last one read
-    std::size_t given = 0;  // rows of it
-    Error error;            // what every further call tells
+    Table block;                 // the last one read
+    std::size_t given = 0;       // rows of it
+    std::optional<Error> error;  // what every further call tells
 };
 
 }  // namespace sample
@@ -259,7 +260,7 @@ Result<MapWriter> MapWriter::begin(const std::string& path, const sample::MapHea
     auto data = std::make_unique<sample::MapWriterData>(path, head);
     if (Status opened = data->file.status(); !opened) return opened.error();
     if (!data->file.can_replace())
-        return file_error(path, "cannot write a map to a pipe or device",
+        return file_error("file.pipe", path, "cannot write a map to a pipe or device",
                           "a regular file: the number of rows is written into its header at the end", {},
                           "name a regular file");
     data->file.write(head.bytes());
@@ -279,7 +280,8 @@ Status MapWriter::write(const TableView& rows) {
     sample::MapWriterData& to = *data_;
     if (!to.state) return to.state;
     if (to.done)
-        return to.state = file_error(to.name, "rows after the end of a map", {}, {}, "write them before commit()");
+        return to.state = file_error("argument.value", to.name, "rows after the end of a map", {}, {},
+                                     "write them before commit()");
     if (to.state = to.check(rows); !to.state) return to.state;
     for (std::size_t row = 0; row < rows.row_count();) {
         const std::size_t room = sample::map_block_rows - to.pending.row_count();
@@ -337,13 +339,13 @@ Result<std::size_t> MapReader::read(std::size_t max_rows, Table& rows) {
     sample::MapReaderData& from = *data_;
     rows.dimension = from.head.dimension;
     sample::clear_map_rows(rows);
-    if (!from.error.what.empty()) return from.error;
+    if (from.error) return *from.error;
     while (rows.row_count() < max_rows) {
         if (from.given == from.block.row_count()) {
             if (from.row == from.head.rows) break;
             if (Status next = from.next_block(); !next) {
                 sample::clear_map_rows(rows);
-                return from.error = next.error();
+                return *(from.error = next.error());
             }
         }
         const std::size_t end = from.given + std::min(max_rows - rows.row_count(), from.block.row_count() - from.given);

@@ -159,7 +159,7 @@ public:
         const std::string_view word = first_word(begin, '#');
         binary_ = is_medit(begin.substr(0, 12)) && begin[1] == 0;
         if (!binary_ && !same_word(word, "MeshVersionFormatted"))
-            refuse_line(path, 1, "not a file of Medit",
+            refuse_line("file.format", path, 1, "not a file of Medit",
                         "\"MeshVersionFormatted\", or in a binary file the numbers 1, 1 to 4, 3",
                         head.empty() ? "an empty file" : base::quoted(word),
                         "check the path: other programs have files of this suffix, too");
@@ -167,7 +167,8 @@ public:
         bytes_ = data_.bytes();
         if (bytes_.starts_with("\xEF\xBB\xBF")) bytes_.remove_prefix(3);
         binary_ ? list_binary() : list_text();
-        if (dimension_ == 0) refuse(bytes_.data(), "the dimension", "a keyword Dimension", "none", "write it again");
+        if (dimension_ == 0)
+            refuse("file.syntax", bytes_.data(), "the dimension", "a keyword Dimension", "none", "write it again");
     }
 
     const std::string& path() const { return path_; }
@@ -181,7 +182,7 @@ public:
         MeditRows rows{reals_a_row, integers_a_row, {}, {}};
         const std::size_t row_bytes = reals_a_row * real_bytes() + integers_a_row * integer_bytes();
         if (section.count * row_bytes != section.body.size())
-            refuse(section.body.data(), "the size of " + section.name,
+            refuse("file.count", section.body.data(), "the size of " + section.name,
                    std::to_string(section.count * row_bytes) + " bytes for " + std::to_string(section.count) +
                        " rows, for the version is " + std::to_string(version_) + " and the dimension " +
                        std::to_string(dimension_),
@@ -194,8 +195,9 @@ public:
         return rows;
     }
 
-    [[noreturn]] void refuse_in(const MeditSection& section, const MeditRows& rows, std::size_t row, std::size_t column,
-                                std::string expected, std::string found, std::string remedy = {}) const {
+    [[noreturn]] void refuse_in(ErrorCode code, const MeditSection& section, const MeditRows& rows, std::size_t row,
+                                std::size_t column, std::string expected, std::string found,
+                                std::string remedy = {}) const {
         const char* at = section.body.data();
         if (binary_) {
             const std::size_t reals = rows.reals_a_row, before = std::min(column, reals);
@@ -207,7 +209,7 @@ public:
                 word = next_word(rest);
             at = word.data();
         }
-        refuse(at, "row " + std::to_string(row + 1) + " (from 1) of " + section.name, std::move(expected),
+        refuse(code, at, "row " + std::to_string(row + 1) + " (from 1) of " + section.name, std::move(expected),
                std::move(found), std::move(remedy));
     }
 
@@ -229,7 +231,7 @@ private:
             body = body.substr(0, static_cast<std::size_t>(next.data() - body.data()));
             if (same_word(keyword, "End")) {
                 if (next.empty() && next_word(body).empty()) return;
-                refuse(body.data(), "text after the keyword End", "the end of the file", "more");
+                refuse("file.count", body.data(), "text after the keyword End", "the end of the file", "more");
             }
             if (same_word(keyword, "MeshVersionFormatted")) {
                 set_header(version_, body, 0, 4);
@@ -253,7 +255,7 @@ private:
         while (true) {
             const char* const at = rest.data();
             if (rest.size() < head)
-                refuse(at, "the file ends without the keyword End", "another keyword",
+                refuse("file.truncated", at, "the file ends without the keyword End", "another keyword",
                        std::to_string(rest.size()) + " bytes", cut_short);
             const std::int64_t code = take_integer(rest, 4, swapped_), here = at - bytes_.data(),
                                next = take_integer(rest, head - 4, swapped_);
@@ -261,7 +263,7 @@ private:
             const MeditKeyword* const known = find_keyword([&](const MeditKeyword& k) { return k.code == code; });
             const std::string name = known != nullptr ? std::string(known->name) : "keyword " + std::to_string(code);
             if (next < here + static_cast<std::int64_t>(head) || next > static_cast<std::int64_t>(bytes_.size()))
-                refuse(at, "the place of what follows " + name,
+                refuse("file.truncated", at, "the place of what follows " + name,
                        "one behind it, in a file of " + std::to_string(bytes_.size()) + " bytes", std::to_string(next),
                        cut_short);
             const std::string_view body = rest.substr(0, static_cast<std::size_t>(next - here) - head);
@@ -276,7 +278,7 @@ private:
         const auto is_same = [&](const MeditSection& one) { return one.keyword.code == section.keyword.code; };
         if (kind != other) {
             if (std::any_of(sections_.begin(), sections_.end(), is_same))
-                refuse(body.data(), "a second section " + section.name, "one", "two");
+                refuse("file.duplicate", body.data(), "a second section " + section.name, "one", "two");
             section.count =
                 static_cast<std::size_t>(take_count(body, integer_bytes(), "the number of rows", 0, max_rows));
         }
@@ -292,12 +294,12 @@ private:
         const bool is_version = &number == &version_;
         const char* const what = is_version ? "the version of the format" : "the dimension";
         if (is_version ? has_version_ : number != 0)
-            refuse(text.data(), std::string(what) + " again", "it once", "it twice");
+            refuse("file.duplicate", text.data(), std::string(what) + " again", "it once", "it twice");
         has_version_ = has_version_ || is_version;
         number = take_count(text, 4, what, least, most);
         if (binary_) return;
         if (const std::string_view more = next_word(text); !more.empty())
-            refuse(more.data(), std::string("more behind ") + what, "a keyword", base::quoted(more));
+            refuse("file.syntax", more.data(), std::string("more behind ") + what, "a keyword", base::quoted(more));
     }
 
     std::int64_t take_count(std::string_view& text, std::size_t bytes, const char* what, std::int64_t least,
@@ -316,7 +318,8 @@ private:
             if (number >= least && number <= most) return number;
             found = std::to_string(number);
         }
-        refuse(at, what, "a number from " + std::to_string(least) + " to " + std::to_string(most), found);
+        refuse("file.number", at, what, "a number from " + std::to_string(least) + " to " + std::to_string(most),
+               found);
     }
 
     MeditRows text_rows(const MeditSection& section, std::size_t reals, std::size_t integers) const {
@@ -331,14 +334,15 @@ private:
                 ? io::read_text(text, NumberType::float64, section.count * width, integers != 0 ? numbers : rows.reals)
                 : io::read_text(text, NumberType::int64, section.count * width, rows.integers);
         if (fault.kind == NumberFault::Kind::too_few)
-            refuse(text.data(), "the end of " + section.name, wanted, std::to_string(fault.index) + " numbers",
-                   cut_short);
+            refuse("file.truncated", text.data(), "the end of " + section.name, wanted,
+                   std::to_string(fault.index) + " numbers", cut_short);
         if (fault)
-            refuse_in(section, rows, fault.index / width, fault.index % width,
+            refuse_in("file.number", section, rows, fault.index / width, fault.index % width,
                       fault.index % width < reals ? "a number" : "an integer", base::quoted(fault.text),
                       about_real(fault.text, {}, {}).remedy);
         if (const char* const at = text.data(); !next_word(text).empty())
-            refuse(at, "more numbers in " + section.name, wanted, "more", "mend the count, or the dimension");
+            refuse("file.count", at, "more numbers in " + section.name, wanted, "more",
+                   "mend the count, or the dimension");
         if (integers == 0 || reals == 0) return rows;
         make_rows(section.count, rows);
         for (std::size_t i = 0; i < numbers.size(); ++i) {
@@ -348,7 +352,8 @@ private:
             } else if (std::fabs(numbers[i]) <= 0x1p53 && std::trunc(numbers[i]) == numbers[i]) {
                 rows.integers[row * integers + column - reals] = static_cast<std::int64_t>(numbers[i]);
             } else {
-                refuse_in(section, rows, row, column, "an integer up to 2^53", base::shortest(numbers[i]));
+                refuse_in("file.number", section, rows, row, column, "an integer up to 2^53",
+                          base::shortest(numbers[i]));
             }
         }
         return rows;
@@ -358,9 +363,9 @@ private:
     std::size_t integer_bytes() const { return version_ == 4 ? 8 : 4; }
     std::size_t line_at(const char* at) const { return binary_ ? 0 : line_of(bytes_, at); }
     template <class... Parts>
-    [[noreturn]] void refuse(const char* at, std::string what, Parts&&... parts) const {
+    [[noreturn]] void refuse(ErrorCode code, const char* at, std::string what, Parts&&... parts) const {
         if (binary_) what += ", at byte " + std::to_string(at - bytes_.data());
-        refuse_line(path_, line_at(at), std::move(what), std::forward<Parts>(parts)...);
+        refuse_line(code, path_, line_at(at), std::move(what), std::forward<Parts>(parts)...);
     }
 
     std::string path_;

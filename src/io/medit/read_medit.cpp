@@ -39,8 +39,8 @@ void add_medit_fields(const MeditFile& file, Mesh& mesh) {
             const char* const why = some ? ": not of all cells of the mesh" : ": they are no cells of the mesh";
             mesh.notes.push_back({Note::Kind::left_out, section.name + why, file.path(), some});
         } else if (rows != 0 && section.count != rows) {  // of a file that holds both
-            refuse_file(file.path(), "the rows of solution0", std::to_string(rows), std::to_string(section.count),
-                        "one for each node or cell");
+            refuse_file("field.size", file.path(), "the rows of solution0", std::to_string(rows),
+                        std::to_string(section.count), "one for each node or cell");
         } else {
             add_fields_of(file, section, of == 0 ? mesh.point_fields : mesh.cell_fields);
         }
@@ -98,7 +98,7 @@ private:
             (found.empty() || dimension == found.front()->keyword.dimension ? found : lower_).push_back(&section);
         }
         if (nodes_ == nullptr || found.empty() || found.front()->keyword.dimension < 2)
-            refuse_file(file_.path(), "the file contains no mesh",
+            refuse_file("mesh.empty", file_.path(), "the file contains no mesh",
                         "Vertices, and Tetrahedra, Hexahedra, Triangles or the like",
                         file_.sections().empty() ? "nothing" : file_.sections().front().name,
                         "name a file with a mesh; the fields of a .sol file go with --field NAME=FILE");
@@ -107,15 +107,15 @@ private:
         const MeditKeyword& keyword = cells_->keyword;
         if (found.size() > 1 || !(is_simplex(keyword, 1) || is_simplex(keyword, 2))) shapes_ = std::move(found);
         if (mesh_.dimension > file_.dimension())
-            refuse_file(file_.path(), "cells in space, and nodes in the plane", "Dimension 3", "Dimension 2",
-                        "mend the dimension");
+            refuse_file("mesh.dimension", file_.path(), "cells in space, and nodes in the plane", "Dimension 3",
+                        "Dimension 2", "mend the dimension");
     }
 
     void read_nodes() {
         const auto dimension = static_cast<std::size_t>(file_.dimension());
         MeditRows rows = file_.rows(*nodes_, dimension, 1);
         if (const std::size_t i = base::first_not_finite(rows.reals); i != rows.reals.size())
-            file_.refuse_in(*nodes_, rows, i / dimension, i % dimension, "a finite coordinate",
+            file_.refuse_in("mesh.coordinate", *nodes_, rows, i / dimension, i % dimension, "a finite coordinate",
                             base::shortest(rows.reals[i]), "correct the point");
         mesh_.point_markers = references(std::move(rows.integers));
         mesh_.points = std::move(rows.reals);
@@ -149,8 +149,8 @@ private:
             for (std::size_t k = 0; k < nodes; ++k) {
                 const std::int64_t node = row[k] - 1;
                 if (row[k] < 1 || static_cast<std::uint64_t>(node) >= points)
-                    file_.refuse_in(section, rows, i, k, "a node from 1 to " + std::to_string(points),
-                                    std::to_string(row[k]),
+                    file_.refuse_in("mesh.node-index", section, rows, i, k,
+                                    "a node from 1 to " + std::to_string(points), std::to_string(row[k]),
                                     row[k] == 0 ? "nodes count from 1: add 1 to all" : "check the numbers");
                 (k < corners ? cells.corners[i * corners + k] : cells.mids[i * (nodes - corners) + k - corners]) =
                     static_cast<Mesh::Index>(node);
@@ -192,7 +192,7 @@ private:
         if (mesh_.mid_nodes.empty()) return;
         const std::optional<mesh::MidEdgeVote> vote = mesh::detect_mid_edge_order(mesh_);
         if (!vote)
-            refuse_file(file_.path(), "the order of the mid-edge nodes is unknown",
+            refuse_file("mesh.node-order", file_.path(), "the order of the mid-edge nodes is unknown",
                         "each near the middle of its edge, in the order 12 23 13 14 24 34, or that of TetGen or Gmsh",
                         "another order in most cells", "write the mesh again with cells of order 1");
         // Where no cell tells it, as libMeshb documents it.

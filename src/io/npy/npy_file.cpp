@@ -61,12 +61,13 @@ std::optional<std::string> npy_text(const char* at, const NpyType& type) {
 void make_simple(const NpyHeader& header, const std::string& file, NpyTable& table) {
     const auto type = npy_type(header.descr);
     if (!type || type->size == 0)
-        refuse_file(file, "cannot read an array of that type", "integers, floating-point numbers or texts",
-                    base::quoted(header.descr), "save a.astype('f8')");
+        refuse_file("column.type", file, "cannot read an array of that type",
+                    "integers, floating-point numbers or texts", base::quoted(header.descr), "save a.astype('f8')");
     const std::uint64_t columns = header.shape.size() == 2 ? header.shape[1] : 1;
     if (columns > most_npy_columns)
-        refuse_file(file, "an array of another shape", "at most " + std::to_string(most_npy_columns) + " columns",
-                    as_tuple(header.shape), "save an array with a row for each point");
+        refuse_file("point.dimension", file, "an array of another shape",
+                    "at most " + std::to_string(most_npy_columns) + " columns", as_tuple(header.shape),
+                    "save an array with a row for each point");
     table.row_size = columns * type->size;
     table.by_columns = header.fortran_order && columns > 1;
     for (std::uint64_t c = 0; c < columns; ++c) {
@@ -79,12 +80,13 @@ void make_simple(const NpyHeader& header, const std::string& file, NpyTable& tab
 void check_room(const NpyTable& table, std::uint64_t room, const std::string& file) {
     const std::uint64_t row = table.row_size;
     if (row != 0 && table.rows > room / row)
-        refuse_file(file, "the file ends too early",
+        refuse_file("file.truncated", file, "the file ends too early",
                     std::to_string(table.rows) + " rows of " + std::to_string(row) + " bytes, as its header tells",
                     std::to_string(room) + " bytes", "the file may be cut short: write it again");
     if (table.rows * row != room)
-        refuse_file(file, "bytes after the array", std::to_string(table.rows * row) + ", as the header tells",
-                    std::to_string(room), "save one array a file");
+        refuse_file("file.count", file, "bytes after the array",
+                    std::to_string(table.rows * row) + ", as the header tells", std::to_string(room),
+                    "save one array a file");
 }
 
 }  // namespace
@@ -97,15 +99,15 @@ NpyFile::NpyFile(const std::string& path)
 void NpyFile::read(std::uint64_t offset, std::span<char> bytes) const {
     const std::uint64_t end = header_.size + offset + bytes.size();
     if (file_.read_at(header_.size + offset, bytes, path_).value() != bytes.size())
-        refuse_file(path_, "the file ends too early", "byte " + std::to_string(end - 1), "the end of the file",
-                    "do not change the file while it is read");
+        refuse_file("file.truncated", path_, "the file ends too early", "byte " + std::to_string(end - 1),
+                    "the end of the file", "do not change the file while it is read");
 }
 
 const NpyTable& NpyFile::make_table() {
     const std::vector<std::uint64_t>& shape = header_.shape;
     if (shape.empty() || shape.size() > (header_.structured ? 1U : 2U))
-        refuse_file(path_, "an array of another shape", header_.structured ? "(n,)" : "(n, columns)", as_tuple(shape),
-                    "save an array with a row for each point");
+        refuse_file("point.dimension", path_, "an array of another shape", header_.structured ? "(n,)" : "(n, columns)",
+                    as_tuple(shape), "save an array with a row for each point");
     table_.rows = shape[0];
     if (header_.structured) {
         table_.columns = header_.fields;
@@ -135,7 +137,9 @@ const char* NpyFile::items(const NpyColumn& column) {
 }
 
 void NpyFile::refuse(const std::string& what, std::size_t row, const char* expected, const char* remedy) const {
-    refuse_file(path_, "row " + std::to_string(first_ + row) + " of " + what, expected, "another value", remedy);
+    throw Exception(
+        about("options.keep", file_error("column.type", path_, "row " + std::to_string(first_ + row) + " of " + what,
+                                         expected, "another value", remedy)));
 }
 
 void NpyFile::numbers(const NpyColumn& column, const std::string& what, double* out, std::size_t stride) {

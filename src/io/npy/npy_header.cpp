@@ -146,9 +146,9 @@ bool is_tuple(const Literal& literal) {
     return literal.kind == '(' && std::ranges::count(literal.items, '0', &Literal::kind) == std::ssize(literal.items);
 }
 
-[[noreturn]] void not_npy(const std::string& file, std::string expected, std::string found,
+[[noreturn]] void not_npy(ErrorCode code, const std::string& file, std::string expected, std::string found,
                           std::string remedy = "save the array again with numpy.save") {
-    refuse_file(file, "cannot read the header of the NPY file", std::move(expected), std::move(found),
+    refuse_file(code, file, "cannot read the header of the NPY file", std::move(expected), std::move(found),
                 std::move(remedy));
 }
 
@@ -218,7 +218,7 @@ NpyHeader parse_npy_text(std::string_view text, bool latin1, const std::string& 
             header.structured = true;
             if (!whole || !take_fields(value, header.fields, header.item_size, 0) || header.item_size == 0 ||
                 header.item_size > longest_npy_text << 10)
-                refuse_file(file, "cannot read a structured array of that type",
+                refuse_file("column.type", file, "cannot read a structured array of that type",
                             "a list of names and types of known size, and no Python objects",
                             base::quoted(from.substr(0, from.size() - rest.size())),
                             "save the fields that are needed: a[['x', 'y']]");
@@ -239,7 +239,7 @@ NpyHeader parse_npy_text(std::string_view text, bool latin1, const std::string& 
     }
     skip_blanks(rest);
     if (good && seen == 7 && rest.empty()) return header;
-    not_npy(file, "a dictionary of descr, fortran_order and shape", base::quoted(text));
+    not_npy("file.syntax", file, "a dictionary of descr, fortran_order and shape", base::quoted(text));
 }
 
 }  // namespace
@@ -249,28 +249,30 @@ NpyHeader read_npy_header(const base::InputFile& file, const std::string& path) 
     std::string head(12, '\0');
     head.resize(file.read_at(0, head, path).value());
     if (head.starts_with("PK\x03\x04"))
-        not_npy(path, "one array", "a ZIP archive, as numpy.savez writes it",
+        not_npy("file.format", path, "one array", "a ZIP archive, as numpy.savez writes it",
                 "save the one array of points with numpy.save");
     if (!head.starts_with(npy_magic))
-        not_npy(path, "a file that begins with \\x93NUMPY",
+        not_npy("file.format", path, "a file that begins with \\x93NUMPY",
                 head.empty() ? "nothing" : base::quoted(head.substr(0, npy_magic.size())));
     const auto need = [&](std::size_t size) {
-        if (head.size() < size) not_npy(path, "a whole header", "the end of the file");
+        if (head.size() < size) not_npy("file.truncated", path, "a whole header", "the end of the file");
     };
     need(10);
     const auto byte = [&](std::size_t i) { return static_cast<std::size_t>(static_cast<unsigned char>(head[i])); };
     const std::size_t major = byte(6);
     if (major < 1 || major > 3)
-        not_npy(path, "version 1, 2 or 3", "version " + std::to_string(major) + "." + std::to_string(byte(7)));
+        not_npy("file.version", path, "version 1, 2 or 3",
+                "version " + std::to_string(major) + "." + std::to_string(byte(7)));
     const std::size_t offset = major == 1 ? 10 : 12;
     need(offset);
     std::size_t length = 0;
     for (std::size_t i = offset; i-- > 8;) length = length << 8 | byte(i);
     if (length > longest_npy_text)
-        not_npy(path, "a header of at most " + std::to_string(longest_npy_text) + " bytes", std::to_string(length));
+        not_npy("file.too-large", path, "a header of at most " + std::to_string(longest_npy_text) + " bytes",
+                std::to_string(length));
     const std::size_t size = offset + length;
     if (size > file.size())
-        refuse_file(path, "the file ends too early", "a header of " + std::to_string(size) + " bytes",
+        refuse_file("file.truncated", path, "the file ends too early", "a header of " + std::to_string(size) + " bytes",
                     std::to_string(file.size()), "the file may be cut short: write it again");
     std::string text(length, '\0');
     text.resize(file.read_at(offset, text, path).value());

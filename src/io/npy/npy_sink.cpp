@@ -66,7 +66,7 @@ public:
     NpySink(const std::string& path, const TableFormat& format) : RowSink(path, format) {
         file_.status().value();
         if (!file_.can_replace())
-            refuse_file(path_, "cannot write NPY to a pipe or device",
+            refuse_file("file.pipe", path_, "cannot write NPY to a pipe or device",
                         "a regular file: the number of rows is written into its header at the end", {},
                         "name a regular file, or write CSV");
         settle_types();
@@ -74,7 +74,7 @@ public:
             name(static_cast<Feature>(f)).copy(features_[f].data(), feature_size);
         head_size_ = npy_header_of(types_, {UINT64_MAX}).size();
         if (head_size_ > longest_npy_text)
-            refuse_file(path_, "too many columns for an NPY file",
+            refuse_file("file.too-large", path_, "too many columns for an NPY file",
                         "a header of at most " + std::to_string(longest_npy_text) + " bytes",
                         std::to_string(head_size_), "choose fewer fields, or write CSV");
         file_.write(npy_header_of(types_, {0}, head_size_));
@@ -112,8 +112,8 @@ private:
                     ? "a name that differs from the others and from x, y, z, cell, feature, distance"
                     : nullptr;
             if (expected != nullptr)
-                refuse_file(path_, "a column name is not allowed in an NPY file", expected, base::quoted(field.name),
-                            "rename the field, leave it out, or write CSV");
+                refuse_file("field.type", path_, "a column name is not allowed in an NPY file", expected,
+                            base::quoted(field.name), "rename the field, leave it out, or write CSV");
             const NpyType type = type_of(field);
             row_size_ += type.size;
             types_ += (types_.empty() ? "[(" : ", (") + as_literal(field.name) + ", '" + type.text + "')";
@@ -129,7 +129,8 @@ private:
             for (const std::string& text : *texts) {
                 if (holds(type, text)) continue;
                 return file_error(
-                    path_, "a text of column " + base::quoted(format_.carried[k].name) + " does not fit the file",
+                    "column.type", path_,
+                    "a text of column " + base::quoted(format_.carried[k].name) + " does not fit the file",
                     (type.kind == 'U' ? std::to_string(type.size / 4) + " characters of UTF-8"
                                       : std::to_string(type.size) + " bytes") +
                         " at most, as the column was told, and no zero byte at its end",

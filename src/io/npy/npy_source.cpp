@@ -26,7 +26,7 @@ public:
         for (const std::size_t place : places) {
             const NpyColumn& column = table.columns[place];
             if (!column.type.is_number())
-                refuse_file(path_, "cannot read points of that type",
+                refuse_file("column.type", path_, "cannot read points of that type",
                             "integers or floating-point numbers of at most 64 bits", base::quoted(column.type.text),
                             "save a.astype('f8')");
             if (!column.type.is_double()) widened = column.type.text;
@@ -56,8 +56,9 @@ private:
                      std::string(dimension_ == 3 ? ",3" : "");
         if (shape.size() == 2 && shape[0] == dimension_ && shape[1] != dimension_ + 1)
             remedy = "if it has a column for each point, save a.T";
-        refuse_file(path_, "an array of another shape", "(n, " + d + "), for the mesh is " + d + "-dimensional",
-                    as_tuple(shape), std::move(remedy));
+        throw Exception(about("options.columns", file_error("point.dimension", path_, "an array of another shape",
+                                                            "(n, " + d + "), for the mesh is " + d + "-dimensional",
+                                                            as_tuple(shape), std::move(remedy))));
     }
 
     void keep(const NpyColumn& column, std::string name) {
@@ -73,9 +74,11 @@ private:
         if (type.is_text()) format.max_bytes = type.size;
         if (type.kind == 'U') format.max_characters = std::max<std::size_t>(1, type.size / 4);
         if (!type.is_number() && !type.is_text())
-            refuse_file(path_, "column " + base::quoted(column.name) + " cannot be carried through",
-                        "integers, floating-point numbers or texts", base::quoted(type.text),
-                        "leave it out of options.keep, or save it as another type");
+            throw Exception(about(
+                "options.keep",
+                file_error("column.type", path_, "column " + base::quoted(column.name) + " cannot be carried through",
+                           "integers, floating-point numbers or texts", base::quoted(type.text),
+                           "leave it out of options.keep, or save it as another type")));
         kept_.push_back(column);
         formats_.push_back(std::move(format));
     }
@@ -116,10 +119,12 @@ private:
             }
             const bool good = any_point_ || base::all_finite(points);
             if (const std::size_t i = good ? points.size() : base::first_not_finite(points); i != points.size())
-                refuse_file(path_, "a point that is not finite", "finite coordinates",
-                            base::shortest(points[i]) + " at [" + std::to_string(next_ + i / dimension_) + ", " +
-                                std::to_string(i % dimension_) + "]",
-                            std::string("remove the point: a[numpy.isfinite(a).all(axis=1)]") + or_nan_for_it);
+                throw Exception(about(
+                    nonfinite_points,
+                    file_error("point.not-finite", path_, "a point that is not finite", "finite coordinates",
+                               base::shortest(points[i]) + " at [" + std::to_string(next_ + i / dimension_) + ", " +
+                                   std::to_string(i % dimension_) + "]",
+                               std::string("remove the point: a[numpy.isfinite(a).all(axis=1)]") + or_nan_for_it)));
         } catch (const Exception&) {
             out.resize(before);
             throw;

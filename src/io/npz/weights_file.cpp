@@ -51,7 +51,7 @@ public:
     /// Error: the file cannot be written, or is a pipe or device: sizes are known only at the end of an array.
     Status check(const std::string& path) const {
         if (!file_.status() || file_.can_replace()) return file_.status();
-        return file_error(path, "cannot write NPZ to a pipe or device",
+        return file_error("file.pipe", path, "cannot write NPZ to a pipe or device",
                           "a regular file: sizes are written into its headers at the end", {}, "name a regular file");
     }
 

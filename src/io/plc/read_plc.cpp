@@ -18,22 +18,24 @@ bool read_nodes(PlcText& in, Plc& plc) {
     if (in.words_left() > 0) {
         const int dimension = in.take_integer("the dimension");
         if (dimension != 3)
-            in.fail("cannot mesh", "dimension 3", std::to_string(dimension), "mesh a PLC in the plane with Triangle");
+            in.fail("mesh.dimension", "cannot mesh", "dimension 3", std::to_string(dimension),
+                    "mesh a PLC in the plane with Triangle");
     }
     plc.attribute_count = in.words_left() > 0 ? static_cast<int>(in.take_count("the number of attributes")) : 0;
     const int markers = in.words_left() > 0 ? in.take_integer("the number of markers") : 0;
-    if (markers != 0 && markers != 1) in.fail("cannot read", "0 or 1 markers", std::to_string(markers));
+    if (markers != 0 && markers != 1) in.fail("file.syntax", "cannot read", "0 or 1 markers", std::to_string(markers));
     in.need_end("the numbers of nodes, dimensions, attributes and markers");
     for (std::size_t i = 0; i < nodes; ++i) {
         in.need_line("node", i + 1, nodes);
         const std::int32_t id = in.take_integer("a node's number");
         if (i == 0) {
-            if (id != 0 && id != 1) in.fail("cannot read", "numbering from 0 or 1", std::to_string(id));
+            if (id != 0 && id != 1)
+                in.fail("mesh.numbering", "cannot read", "numbering from 0 or 1", std::to_string(id));
             plc.index_base = id;
         }
         const std::size_t expected = i + static_cast<std::size_t>(plc.index_base);
         if (id < 0 || static_cast<std::size_t>(id) != expected)
-            in.fail("nodes are not numbered in order", std::to_string(expected), std::to_string(id));
+            in.fail("mesh.numbering", "nodes are not numbered in order", std::to_string(expected), std::to_string(id));
         for (int axis = 0; axis < 3; ++axis) plc.points.push_back(in.take_number("a coordinate"));
         for (int a = 0; a < plc.attribute_count; ++a) plc.attributes.push_back(in.take_number("an attribute"));
         // A marker may be left out and is 0 then, as in TetGen.
@@ -53,7 +55,7 @@ std::string read_text(const std::string& path) {
 /// A ring of nodes; it may run over several lines.
 std::vector<std::int32_t> read_polygon(PlcText& in, const Plc& plc) {
     const std::size_t n = in.take_count("the number of a polygon's corners");
-    if (n == 0) in.fail("cannot read", "a polygon with corners", "none");
+    if (n == 0) in.fail("file.syntax", "cannot read", "a polygon with corners", "none");
     std::vector<std::int32_t> ring;
     ring.reserve(n);
     while (ring.size() < n) {
@@ -62,7 +64,8 @@ std::vector<std::int32_t> read_polygon(PlcText& in, const Plc& plc) {
         const std::int64_t index = std::int64_t{id} - plc.index_base;
         if (index < 0 || index >= static_cast<std::int64_t>(plc.point_count())) {
             const std::size_t last = plc.point_count() - 1 + static_cast<std::size_t>(plc.index_base);
-            in.fail("no such node", std::to_string(plc.index_base) + " to " + std::to_string(last), std::to_string(id));
+            in.fail("mesh.node-index", "no such node", std::to_string(plc.index_base) + " to " + std::to_string(last),
+                    std::to_string(id));
         }
         ring.push_back(static_cast<std::int32_t>(index));
     }
@@ -111,7 +114,7 @@ PlcFacet read_facet(PlcText& in, Plc& plc, bool one_polygon) {
         return facet;
     }
     const std::size_t polygons = in.take_count("the number of a facet's polygons");
-    if (polygons == 0) in.fail("cannot read", "a facet with polygons", "none");
+    if (polygons == 0) in.fail("file.syntax", "cannot read", "a facet with polygons", "none");
     const std::size_t holes = in.words_left() > 0 ? in.take_count("the number of a facet's holes") : 0;
     read_facet_marker(in, plc, facet);
     in.need_end("the numbers of polygons and holes, and a marker");
@@ -185,12 +188,12 @@ Result<Plc> read_plc(const std::string& path) try {
     const ExactEnvironment environment;
     const std::string extension = std::filesystem::path(without_gz(path)).extension().string();
     if (std::find(plc_extensions.begin(), plc_extensions.end(), extension) == plc_extensions.end())
-        return file_error(path, "unknown kind of PLC", "one of .poly .smesh .off .stl .ply .obj",
+        return file_error("file.suffix", path, "unknown kind of PLC", "one of .poly .smesh .off .stl .ply .obj",
                           extension.empty() ? "no extension" : extension);
     const bool smesh = extension == ".smesh";
     Plc plc = smesh || extension == ".poly" ? read_poly(path, smesh) : plc_of(read_polygons(path));
-    if (plc.facets.empty()) return file_error(path, "nothing to mesh: the PLC has no facets");
-    if (plc.point_count() < 4) return file_error(path, "nothing to mesh: a PLC needs four nodes");
+    if (plc.facets.empty()) return file_error("mesh.empty", path, "nothing to mesh: the PLC has no facets");
+    if (plc.point_count() < 4) return file_error("mesh.empty", path, "nothing to mesh: a PLC needs four nodes");
     return plc;
 } catch (const Exception& problem) {
     return problem.error();

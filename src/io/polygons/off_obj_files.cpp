@@ -12,7 +12,9 @@ bool take_colour(PlcText& in) {
     const std::size_t n = in.words_left();
     for (std::size_t k = 0; k < std::min<std::size_t>(n, 4); ++k) in.take_number("a colour behind a polygon's corners");
     in.need_end("the corners of a polygon, and at most the four numbers of a colour");
-    if (n == 2) in.fail("cannot read", "as many corners as the line says, or a colour of 1, 3 or 4 numbers", in.line());
+    if (n == 2)
+        in.fail("file.syntax", "cannot read", "as many corners as the line says, or a colour of 1, 3 or 4 numbers",
+                in.line());
     return n != 0;
 }
 
@@ -25,12 +27,12 @@ std::int64_t take_obj_corner(PlcText& in) {
     for (int part = 0; part < 3; ++part) {
         const std::string_view digits = rest.substr(0, rest.find('/'));
         const std::optional<std::int32_t> id = integer_of_word<std::int32_t>(digits);
-        if (!id && (part == 0 || !digits.empty())) in.fail("cannot read", expected, word);
+        if (!id && (part == 0 || !digits.empty())) in.fail("file.syntax", "cannot read", expected, word);
         if (part == 0) first = *id;
         if (digits.size() == rest.size()) return first;
         rest.remove_prefix(digits.size() + 1);
     }
-    in.fail("cannot read", expected, word);
+    in.fail("file.syntax", "cannot read", expected, word);
 }
 
 }  // namespace
@@ -45,7 +47,7 @@ void check_corners(PlcText& in, Polygons& all) {
     if (low >= 0 && static_cast<std::size_t>(high) < all.point_count()) return;
     // A file that never uses 0 and does use the count of its points numbers from 1.
     if (low < 1 || static_cast<std::size_t>(high) > all.point_count())
-        in.fail("no such node", nodes_of(all.point_count()), std::to_string(low < 0 ? low : high));
+        in.fail("mesh.node-index", "no such node", nodes_of(all.point_count()), std::to_string(low < 0 ? low : high));
     all.index_base = 1;
     for (Mesh::Index& corner : all.rings) --corner;
 }
@@ -57,7 +59,7 @@ Polygons read_off(PlcText& in) {
     Polygons all;
     in.need_line("OFF");
     const std::string_view keyword = in.take("OFF");
-    if (keyword != "OFF") in.fail("cannot read", "OFF", keyword);
+    if (keyword != "OFF") in.fail("file.format", "cannot read", "OFF", keyword);
     if (in.words_left() == 0) in.need_line("the counts of nodes and polygons");
     const std::size_t nodes = in.take_count("the number of nodes"), polygons = in.take_count("the number of polygons");
     if (in.words_left() != 0) in.take_integer("the number of edges");
@@ -75,7 +77,7 @@ Polygons read_off(PlcText& in) {
                                            : "polygon";
         in.need_line(what, i, polygons);
         const std::size_t n = in.take_count("the number of a polygon's corners");
-        if (n < 3) in.fail("cannot read", "a polygon of three or more corners", std::to_string(n));
+        if (n < 3) in.fail("file.syntax", "cannot read", "a polygon of three or more corners", std::to_string(n));
         for (std::size_t k = 0; k < n; ++k) {
             // Geomview reads words, wherever lines end. If a line lacks a corner instead, there are too few polygons.
             if (in.words_left() == 0) {
@@ -84,12 +86,12 @@ Polygons read_off(PlcText& in) {
             }
             all.rings.push_back(in.take_integer("a polygon's corner"));
             if (const Mesh::Index corner = all.rings.back(); corner < 0 || static_cast<std::size_t>(corner) > nodes)
-                in.fail("no such node", nodes_of(nodes), std::to_string(corner));
+                in.fail("mesh.node-index", "no such node", nodes_of(nodes), std::to_string(corner));
         }
         all.counts.push_back(static_cast<std::uint32_t>(n));
         colours += take_colour(in) ? 1 : 0;
     }
-    if (in.next_line()) in.fail("more lines than the header announces", "the end of the file", in.line());
+    if (in.next_line()) in.fail("file.count", "more lines than the header announces", "the end of the file", in.line());
     if (colours != 0)
         all.notes.push_back({Note::Kind::left_out, "the colours of " + base::counted(colours, "polygon"), in.path()});
     check_corners(in, all);
@@ -111,15 +113,15 @@ Polygons read_obj(PlcText& in) {
                 if (k < 3) all.points.push_back(x);
             }
             in.need_end("v, three coordinates, and at most a weight and three shares of a colour");
-            if (n == 5) in.fail("cannot read", "v and 3 coordinates, or 4, 6 or 7 numbers", in.line());
+            if (n == 5) in.fail("file.syntax", "cannot read", "v and 3 coordinates, or 4, 6 or 7 numbers", in.line());
             more += n > 3 ? 1 : 0;
         } else if (key == "f") {
-            if (n < 3) in.fail("cannot read", "a polygon of three or more corners", in.line());
+            if (n < 3) in.fail("file.syntax", "cannot read", "a polygon of three or more corners", in.line());
             for (std::size_t k = 0; k < n; ++k) {
                 const auto count = static_cast<std::int64_t>(all.point_count());
                 const std::int64_t id = take_obj_corner(in), at = id < 0 ? count + id : id - 1;
                 if (id == 0 || at < 0 || at >= count)
-                    in.fail("no such node", "1 to " + std::to_string(count), std::to_string(id));
+                    in.fail("mesh.node-index", "no such node", "1 to " + std::to_string(count), std::to_string(id));
                 all.rings.push_back(static_cast<Mesh::Index>(at));
             }
             all.counts.push_back(static_cast<std::uint32_t>(n));

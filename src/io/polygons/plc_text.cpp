@@ -20,7 +20,7 @@ bool PlcText::next_line() {
 }
 
 void PlcText::need_line(std::string_view expected) {
-    if (!next_line()) fail("the file is truncated", expected, "the end of the file");
+    if (!next_line()) fail("file.truncated", "the file is truncated", expected, "the end of the file");
 }
 
 void PlcText::need_line(std::string_view what, std::size_t i, std::size_t count) {
@@ -28,7 +28,7 @@ void PlcText::need_line(std::string_view what, std::size_t i, std::size_t count)
 }
 
 std::string_view PlcText::take(std::string_view expected) {
-    if (words_left() == 0) fail("cannot read", expected, "the end of the line");
+    if (words_left() == 0) fail("file.syntax", "cannot read", expected, "the end of the line");
     return words_[at_++];
 }
 
@@ -42,7 +42,7 @@ std::int32_t PlcText::take_integer(std::string_view expected) {
     const std::string_view text = take_numeric(expected);
     const std::optional<std::int32_t> value = integer_of_word<std::int32_t>(text);
     if (!value)
-        fail("cannot read", expected, text,
+        fail("file.number", "cannot read", expected, text,
              text.find(',') == std::string_view::npos ? "" : "part the numbers by blanks, without commas");
     return *value;
 }
@@ -51,7 +51,7 @@ double PlcText::take_number(std::string_view expected, bool finite) {
     const std::string_view text = take_numeric(expected);
     const std::optional<double> value = real_of_word(text, finite);
     if (!value)
-        fail("cannot read", std::string(expected) + (finite ? ", a finite number" : ", a number"), text,
+        fail("file.number", "cannot read", std::string(expected) + (finite ? ", a finite number" : ", a number"), text,
              remedy_for_number(text));
     return *value;
 }
@@ -60,7 +60,7 @@ void PlcText::need_end(std::string_view expected) const {
     if (words_left() == 0) return;
     // The commas that part words may be decimal ones.
     const bool commas = line_.find(',') != std::string_view::npos;
-    fail("more words in a line than it may have", expected, line_.substr(line_.find_first_not_of(" \t")),
+    fail("file.syntax", "more words in a line than it may have", expected, line_.substr(line_.find_first_not_of(" \t")),
          commas ? "commas part numbers here: if these are decimal ones, write points" : "");
 }
 
@@ -73,18 +73,19 @@ void PlcText::note_last_number(Notes& notes) const {
 
 std::size_t PlcText::take_count(std::string_view expected) {
     const std::int32_t value = take_integer(expected);
-    if (value < 0) fail("cannot read", expected, std::to_string(value));
+    if (value < 0) fail("file.number", "cannot read", expected, std::to_string(value));
     if (static_cast<std::size_t>(value) > size_ / 2)
-        fail("the count is more than the file can hold", {}, std::to_string(value));
+        fail("file.count", "the count is more than the file can hold", {}, std::to_string(value));
     return static_cast<std::size_t>(value);
 }
 
-void PlcText::fail(std::string_view what, std::string_view expected, std::string_view found,
+void PlcText::fail(ErrorCode code, std::string_view what, std::string_view expected, std::string_view found,
                    std::string_view remedy) const {
     constexpr std::size_t longest = 60;
     std::string shown(found.substr(0, longest));
     if (found.size() > longest) shown += "...";
-    refuse_line(path_, line_number_, std::string(what), std::string(expected), std::move(shown), std::string(remedy));
+    refuse_line(code, path_, line_number_, std::string(what), std::string(expected), std::move(shown),
+                std::string(remedy));
 }
 
 std::string remedy_for_number(std::string_view word) {
@@ -96,9 +97,11 @@ std::string read_surface_text(const std::string& path, Separators separators,
     std::error_code code;
     const std::filesystem::file_status status = std::filesystem::status(path, code);
     if (code == std::errc::permission_denied)
-        refuse_file(path, "cannot read", "a file in a folder that you may search", "permission denied");
-    if (!std::filesystem::exists(status)) refuse_file(path, "no such file");
-    if (std::filesystem::is_directory(status)) refuse_file(path, "cannot read", "a file", "a directory");
+        refuse_file("file.unreadable", path, "cannot read", "a file in a folder that you may search",
+                    "permission denied");
+    if (!std::filesystem::exists(status)) refuse_file("file.missing", path, "no such file");
+    if (std::filesystem::is_directory(status))
+        refuse_file("file.unreadable", path, "cannot read", "a file", "a directory");
     // A binary file may begin with zeros; its beginning, or its size, tells at once whether it is one.
     bool binary = false;
     if (const Result<base::InputFile> file = base::InputFile::open(path); file) {
@@ -116,7 +119,7 @@ std::string read_surface_text(const std::string& path, Separators separators,
     };
     const base::Text certain = binary || has_suffix(path, ".stl") ? base::Text::none : base::Text::all;
     std::string text = base::read_file(path, base::longest_pipe, certain, header).value();
-    if (text.empty()) refuse_file(path, "cannot read", "a PLC", "an empty file");
+    if (text.empty()) refuse_file("file.empty", path, "cannot read", "a PLC", "an empty file");
     if (const OtherFormat* packed = packed_format(text); packed != nullptr)
         throw Exception(other_format_error(*packed, path));
     if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);  // byte order mark

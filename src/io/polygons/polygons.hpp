@@ -55,8 +55,8 @@ public:
     /// Notes it where the file ends with a number: of a file that is cut short it may be the beginning of another one.
     void note_last_number(Notes& notes) const;
 
-    [[noreturn]] void fail(std::string_view what, std::string_view expected = {}, std::string_view found = {},
-                           std::string_view remedy = {}) const;
+    [[noreturn]] void fail(ErrorCode code, std::string_view what, std::string_view expected = {},
+                           std::string_view found = {}, std::string_view remedy = {}) const;
 
 private:
     const std::string& path_;

@@ -74,7 +74,8 @@ Polygons read_binary(PlcText& in) {
                 const std::size_t byte = header_bytes + record_bytes * i + 12 * (corner + 1) + 4 * axis;
                 at[axis] = static_cast<double>(little_endian<float>(bytes, byte));
                 if (!std::isfinite(at[axis]))
-                    refuse_file(in.path(), "a coordinate of triangle " + std::to_string(i) + " is not finite");
+                    refuse_file("mesh.coordinate", in.path(),
+                                "a coordinate of triangle " + std::to_string(i) + " is not finite");
             }
             soup.add(at);
         }
@@ -99,7 +100,8 @@ public:
             any = true;
             take_line();
         }
-        if (!any || place_ != Place::outside) in_.fail("the file is truncated", "endsolid", "the end of the file");
+        if (!any || place_ != Place::outside)
+            in_.fail("file.truncated", "the file is truncated", "endsolid", "the end of the file");
         if (!others_.empty())
             soup_.all.notes.push_back({Note::Kind::left_out,
                                        "lines that no .stl has: " + base::joined(others_, " ", std::identity()),
@@ -126,7 +128,7 @@ private:
         } else if (word == "vertex" && place_ == Place::loop) {
             take_corner();
         } else if (word == "endloop" && place_ == Place::loop) {
-            if (corners_ != 3) in_.fail("cannot read", "a facet of three corners", in_.line());
+            if (corners_ != 3) in_.fail("file.syntax", "cannot read", "a facet of three corners", in_.line());
             in_.need_end("endloop");
             place_ = Place::behind_loop;
         } else if (word == "endfacet" && place_ == Place::behind_loop) {
@@ -135,7 +137,7 @@ private:
         } else if (place_ > Place::solid || is_known(word)) {
             constexpr std::array<const char*, 5> expected{"solid", "facet normal, or endsolid", "outer loop",
                                                           "vertex, or endloop", "endfacet"};
-            in_.fail("cannot read", expected[static_cast<std::size_t>(place_)], in_.line());
+            in_.fail("file.syntax", "cannot read", expected[static_cast<std::size_t>(place_)], in_.line());
         } else if (std::ranges::find(others_, word) == others_.end()) {
             others_.push_back(word);  // colours, for one
         }
@@ -153,12 +155,13 @@ private:
     /// It is not used; degenerate triangles have normals like nan and -1.#IND.
     void take_normal() {
         if (in_.words_left() == 0) return;
-        if (lower(in_.take("normal")) != "normal") in_.fail("cannot read", "facet normal", in_.line());
+        if (lower(in_.take("normal")) != "normal") in_.fail("file.syntax", "cannot read", "facet normal", in_.line());
         for (int axis = 0; axis < 3; ++axis) {
             const std::string word = lower(in_.take("a component of a normal"));
             const bool none = word.find("nan") != std::string::npos || word.find('#') != std::string::npos;
             if (!none && !real_of_word(word, false))
-                in_.fail("cannot read", "a normal of three numbers", in_.line(), remedy_for_number(word));
+                in_.fail("file.syntax", "cannot read", "a normal of three numbers", in_.line(),
+                         remedy_for_number(word));
         }
         in_.need_end("facet normal and three numbers");
     }
@@ -167,7 +170,7 @@ private:
         std::array<double, 3> corner{};
         for (double& x : corner) x = in_.take_number("a coordinate");
         in_.need_end("vertex and three coordinates");
-        if (++corners_ > 3) in_.fail("cannot read", "a facet of three corners", in_.line());
+        if (++corners_ > 3) in_.fail("file.syntax", "cannot read", "a facet of three corners", in_.line());
         soup_.add(corner);
     }
 
@@ -188,8 +191,8 @@ bool is_binary_stl(std::string_view beginning, std::size_t size, const std::stri
         return false;
     const std::size_t whole = binary_size(beginning);
     if (size == whole || (size > whole && whole != header_bytes)) return true;
-    refuse_file(path, "neither a text nor a whole binary .stl", "`solid`, or " + std::to_string(whole) + " bytes",
-                std::to_string(size) + " bytes");
+    refuse_file("file.format", path, "neither a text nor a whole binary .stl",
+                "`solid`, or " + std::to_string(whole) + " bytes", std::to_string(size) + " bytes");
 }
 
 Polygons read_stl(PlcText& in) {

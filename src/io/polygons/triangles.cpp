@@ -87,7 +87,7 @@ Result<Surface> read_surface(const std::string& path, const ReadOptions& options
     if (auto* const surface = std::get_if<Surface>(&*read)) return std::move(*surface);
     Mesh& mesh = std::get<Mesh>(*read);
     if (mesh.dimension == 3)
-        return file_error(path, "this is a mesh of tetrahedra, not a surface", "triangles", {},
+        return file_error("mesh.dimension", path, "this is a mesh of tetrahedra, not a surface", "triangles", {},
                           "take its boundary: `barycert render boundary`");
     return io::surface_of(std::move(mesh), io::InSpace());
 }
@@ -97,7 +97,7 @@ Result<std::variant<Mesh, Surface>> read_mesh_or_surface(const std::string& path
         if (io::is_plc_file(path)) return io::surface_of(read_plc(path).value(), path);
         if (io::is_polygons_file(path)) {
             Surface surface = io::surface_of(io::read_polygons(path), path);
-            if (surface.cells.empty()) io::refuse_file(path, "the surface has no triangles");
+            if (surface.cells.empty()) io::refuse_file("mesh.empty", path, "the surface has no triangles");
             return surface;
         }
         io::InSpace space;

@@ -53,7 +53,8 @@ Status write_file(const Surface& s, const std::string& path, bool binary, const 
 /// Text; triangles without fields. Error: segments.
 Result<SurfaceFile> write_off(const Surface& s, const std::string& path) {
     if (s.dimension == 2)
-        return file_error(path, "an .off file holds polygons only", {}, "segments in the plane", "choose .vtp or .ply");
+        return file_error("file.suffix", path, "an .off file holds polygons only", {}, "segments in the plane",
+                          "choose .vtp or .ply");
     SurfaceFile result;
     for (const auto* const fields : {&s.point_fields, &s.cell_fields})
         std::ranges::transform(*fields, std::back_inserter(result.left_out), &Field::name);
@@ -132,7 +133,7 @@ Result<SurfaceFile> write_vtp(const Surface& s, const std::string& path, VtkData
 Result<SurfaceFile> write_surface(const Surface& surface, const std::string& path, VtkData data) {
     const ExactEnvironment environment;
     if (const char* const fault = io::fault_of(surface); fault != nullptr)
-        return file_error(path, "the surface is inconsistent", {}, fault);
+        return file_error("surface.inconsistent", path, "the surface is inconsistent", {}, fault);
     if (base::has_suffix(path, ".vtp")) return io::write_vtp(surface, path, data);
     if (base::has_suffix(path, ".ply")) return io::write_ply(surface, path);
     if (base::has_suffix(path, ".off")) return io::write_off(surface, path);

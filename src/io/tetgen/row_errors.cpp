@@ -5,8 +5,8 @@ namespace barycert::io {
 namespace {
 
 template <class... Parts>
-[[noreturn]] void refuse_at(const TextTable& table, const char* at, Parts&&... parts) {
-    refuse_line(table.file, line_of(table.bytes, at), std::forward<Parts>(parts)...);
+[[noreturn]] void refuse_at(ErrorCode code, const TextTable& table, const char* at, Parts&&... parts) {
+    refuse_line(code, table.file, line_of(table.bytes, at), std::forward<Parts>(parts)...);
 }
 
 /// "5 columns: id, 3 coordinates, 1 marker".
@@ -49,13 +49,14 @@ Complaint about_integer(std::string_view field) {
     const std::string remedy =
         "number the rows without gaps: TetGen ignores the numbers and would silently take the rows as they come";
     if (row != 0)
-        refuse_at(table, field.data(), "a row out of sequence", "row " + expected, base::quoted(field), remedy);
+        refuse_at("mesh.numbering", table, field.data(), "a row out of sequence", "row " + expected,
+                  base::quoted(field), remedy);
     if (table.base_is_given && (field == "0" || field == "1"))
-        refuse_at(table, field.data(), "the files of this mesh count from different bases",
+        refuse_at("mesh.numbering", table, field.data(), "the files of this mesh count from different bases",
                   "row " + expected + " first, as in the .node file", base::quoted(field),
                   "number all files from 0 or all from 1");
-    refuse_at(table, field.data(), "a bad first row number", table.base_is_given ? expected : "0 or 1",
-              base::quoted(field), remedy);
+    refuse_at("mesh.numbering", table, field.data(), "a bad first row number",
+              table.base_is_given ? expected : "0 or 1", base::quoted(field), remedy);
 }
 
 [[noreturn]] void refuse_index(const TextTable& table, const Columns& columns, std::string_view field) {
@@ -64,14 +65,14 @@ Complaint about_integer(std::string_view field) {
                                ? "none, for there are no " + columns.refers_to
                                : std::to_string(table.base) + " to " + last + " (" + columns.refers_to + ")";
     if (columns.kind == ColumnKind::neighbour) expected += ", or -1 for none";
-    refuse_at(table, field.data(), columns.name + " out of range", expected, base::quoted(field),
+    refuse_at("mesh.node-index", table, field.data(), columns.name + " out of range", expected, base::quoted(field),
               "check that the files belong together and count from the same base");
 }
 
 void check_field(const TextTable& table, const Columns& columns, std::string_view field, std::size_t row) {
     const char* const end = field.data() + field.size();
     if (field.empty())
-        refuse_at(table, end, "bad " + columns.name, "a number before and after each comma", "nothing",
+        refuse_at("file.number", table, end, "bad " + columns.name, "a number before and after each comma", "nothing",
                   "fill in the missing number or remove the comma");
     const bool real = columns.kind == ColumnKind::real;
     std::int64_t value = 0;
@@ -79,7 +80,10 @@ void check_field(const TextTable& table, const Columns& columns, std::string_vie
     if ((real ? scan_real(field.data(), end, number) : scan_integer(field.data(), value)) != end) {
         const Complaint complaint =
             real ? about_real(field, table.finite_remedy, about_separators(field)) : about_integer(field);
-        refuse_at(table, end, "bad " + columns.name, complaint.expected, base::quoted(field), complaint.remedy);
+        Error error = file_error("file.number", table.file, "bad " + columns.name, complaint.expected,
+                                 base::quoted(field), complaint.remedy);
+        error.line = line_of(table.bytes, end);
+        throw Exception(about(table.finite_subject, std::move(error)));
     }
     if (columns.kind == ColumnKind::id && value != table.base + static_cast<std::int64_t>(row))
         refuse_id(table, field, row);
@@ -91,7 +95,8 @@ void check_field(const TextTable& table, const Columns& columns, std::string_vie
     const std::size_t expected = table.column_count();
     const char* const at = fields.front().data();
     if (fields.size() < expected)
-        refuse_at(table, at, "too few columns in a row", described_columns(table), std::to_string(fields.size()),
+        refuse_at("file.count", table, at, "too few columns in a row", described_columns(table),
+                  std::to_string(fields.size()),
                   "complete the row, or mend the header: it tells how many columns there are");
     const std::string found =
         std::to_string(fields.size()) + ", the first too many being " +
@@ -99,7 +104,7 @@ void check_field(const TextTable& table, const Columns& columns, std::string_vie
     // Commas part columns, and decimal ones make two of one.
     const char* const last = fields.back().data() + fields.back().size();
     const bool commas = std::find(at, last, ',') != last;
-    refuse_at(table, at, "too many columns in a row", described_columns(table), found,
+    refuse_at("file.count", table, at, "too many columns in a row", described_columns(table), found,
               table.surplus_remedy + (commas ? "; if commas are decimal ones, write points" : ""));
 }
 
@@ -135,7 +140,7 @@ std::vector<std::string_view> fields_of_line(const TextTable& table, const char*
 
 void refuse_count(const TextTable& table, std::string_view field, const char* name) {
     if (field == "BIN")
-        refuse_header(table, "a binary file", "text", "\"BIN\" in the header",
+        refuse_header("file.unsupported", table, "a binary file", "text", "\"BIN\" in the header",
                       "save the mesh as text: in Chaste, leave out SetWriteFilesAsBinary()");
     std::int64_t value = 0;
     const bool integer = scan_integer(field.data(), value) == field.data() + field.size();
@@ -146,7 +151,7 @@ void refuse_count(const TextTable& table, std::string_view field, const char* na
     const std::string expected = complaint.expected.find("zeros") != std::string::npos
                                      ? complaint.expected
                                      : "an integer from 0 to " + std::to_string(max_count);
-    refuse_header(table, std::string("bad number of ") + name + " in the header", expected,
+    refuse_header("file.count", table, std::string("bad number of ") + name + " in the header", expected,
                   field.empty() ? "nothing" : base::quoted(field), remedy);
 }
 
@@ -162,8 +167,9 @@ void refuse_row(const TextTable& table, const char* at, std::size_t row) {
 }
 
 void refuse_end(const TextTable& table, std::size_t found) {
-    refuse_at(table, table.end(), "the file ends too early", base::counted(table.rows, "row") + " as the header tells",
-              std::to_string(found), "the file may be cut short: write it again, or mend the header");
+    refuse_at("file.truncated", table, table.end(), "the file ends too early",
+              base::counted(table.rows, "row") + " as the header tells", std::to_string(found),
+              "the file may be cut short: write it again, or mend the header");
 }
 
 void refuse_surplus(const TextTable& table, const char* at) {
@@ -173,10 +179,10 @@ void refuse_surplus(const TextTable& table, const char* at) {
     const bool another_row = scan_integer(at, value) == field.data() + field.size() &&
                              value == table.base + static_cast<std::int64_t>(table.rows);
     if (another_row)
-        refuse_at(table, at, "more rows than the header tells", base::counted(table.rows, "row"),
+        refuse_at("file.count", table, at, "more rows than the header tells", base::counted(table.rows, "row"),
                   "a row " + base::quoted(field), "mend the header or remove the row");
-    refuse_at(table, at, "text after the last row", "the end of the file or a comment", base::quoted(field),
-              "remove the text, put # before it, or mend the number of rows in the header");
+    refuse_at("file.syntax", table, at, "text after the last row", "the end of the file or a comment",
+              base::quoted(field), "remove the text, put # before it, or mend the number of rows in the header");
 }
 
 }  // namespace barycert::io

@@ -29,9 +29,9 @@ std::string header_text(std::initializer_list<std::size_t> numbers) {
     return '"' + base::joined(numbers, " ", [](std::size_t number) { return std::to_string(number); }) + '"';
 }
 
-[[noreturn]] void refuse_meaning(const TextTable& table, const std::string& what, std::string expected,
+[[noreturn]] void refuse_meaning(ErrorCode code, const TextTable& table, const std::string& what, std::string expected,
                                  std::size_t found, std::string remedy) {
-    refuse_header(table, what + " in the header", std::move(expected), std::to_string(found), std::move(remedy));
+    refuse_header(code, table, what + " in the header", std::move(expected), std::to_string(found), std::move(remedy));
 }
 
 /// Sets the columns and the base of a .node file by its header and first row, and makes room for their values.
@@ -39,7 +39,8 @@ void settle_node_columns(TextTable& table, std::size_t dimension, std::vector<do
                          std::vector<Field>& fields, std::vector<std::int64_t>& markers_of_nodes) {
     const std::size_t attributes = table.header_field(2, 0), markers = table.header_field(3, 0);
     if (markers > 1)
-        refuse_meaning(table, "bad number of markers", "0 or 1", markers, "declare further columns as attributes");
+        refuse_meaning("file.count", table, "bad number of markers", "0 or 1", markers,
+                       "declare further columns as attributes");
     table.columns = {{.name = "id"},
                      {.kind = ColumnKind::real, .count = dimension, .name = "coordinate", .reals = &points},
                      {.kind = ColumnKind::real, .count = attributes, .name = "attribute", .fields = &fields},
@@ -84,7 +85,7 @@ private:
 
         const std::size_t dimension = table.header_field(1, 3);
         if (dimension != 2 && dimension != 3)
-            refuse_meaning(table, "bad dimension", "2 or 3", dimension,
+            refuse_meaning("mesh.dimension", table, "bad dimension", "2 or 3", dimension,
                            "the header is: nodes, dimension, attributes, markers");
         const std::size_t attributes = table.header_field(2, 0), markers = table.header_field(3, 0);
         const std::string more = header_text({table.rows, dimension, attributes + 1, markers});
@@ -100,15 +101,16 @@ private:
     void prepare_cells() {
         constexpr std::array names{"cells", "corners", "attributes"};
         if (!has(".ele"))
-            refuse_file(stem_ + ".ele", "there are nodes but no cells", "an .ele file beside " + nodes_.file,
-                        "no such file", "mesh the nodes first, or put the .ele file there");
+            refuse_file("file.missing", stem_ + ".ele", "there are nodes but no cells",
+                        "an .ele file beside " + nodes_.file, "no such file",
+                        "mesh the nodes first, or put the .ele file there");
         TextTable& table = cells_ = open(".ele", names);
 
         const bool flat = mesh_.dimension == 2;
         const std::size_t corners = table.header_field(1, mesh_.corners()), attributes = table.header_field(2, 0);
         if (flat ? corners != 3 && corners != 6 : corners != 4 && corners != 10)
             refuse_meaning(
-                table, "bad number of corners",
+                "mesh.node-count", table, "bad number of corners",
                 flat ? "3 or 6, for the .node file has 2 dimensions" : "4 or 10, for the .node file has 3 dimensions",
                 corners, "check that the files belong together and hold triangles (2D) or tetrahedra (3D)");
         table.columns = {
@@ -125,10 +127,10 @@ private:
         constexpr std::array names{"faces", "markers"};
         TextTable& table = faces_.emplace(open(".face", names));
         if (mesh_.dimension == 2)
-            refuse_header(table, "a mesh of triangles has no faces", "", "",
+            refuse_header("mesh.dimension", table, "a mesh of triangles has no faces", "", "",
                           "remove the .face file or do not ask for faces");
         const std::size_t markers = table.header_field(1, 0);
-        if (markers > 1) refuse_meaning(table, "bad number of markers", "0 or 1", markers, {});
+        if (markers > 1) refuse_meaning("file.count", table, "bad number of markers", "0 or 1", markers, {});
         const std::size_t found = table.first_row().size();
         const std::size_t linear = 4 + markers;  // id, corners, marker
         const bool mids = found == linear + 3 || found == linear + 5;
@@ -151,10 +153,10 @@ private:
         const std::size_t sides = mesh_.corners();
         const char* const remedy = "check that the files belong together, or remove the .neigh file";
         if (table.rows != cells_.rows)
-            refuse_header(table, "the number of cells differs from that of the .ele file", std::to_string(cells_.rows),
-                          std::to_string(table.rows), remedy);
+            refuse_header("file.count", table, "the number of cells differs from that of the .ele file",
+                          std::to_string(cells_.rows), std::to_string(table.rows), remedy);
         if (const std::size_t declared = table.header_field(1, sides); declared != sides)
-            refuse_meaning(table, "bad number of neighbours", std::to_string(sides), declared, remedy);
+            refuse_meaning("file.count", table, "bad number of neighbours", std::to_string(sides), declared, remedy);
         table.columns = {{.name = "id"},
                          {ColumnKind::neighbour, sides, "neighbour", cells_.limit(), "cells", &mesh_.neighbours}};
         table.surplus_remedy = "let each row have an id and " + std::to_string(sides) + " neighbours";
@@ -165,7 +167,7 @@ private:
         if (mesh_.mid_nodes.empty()) return;
         const std::optional<mesh::MidEdgeVote> vote = mesh::detect_mid_edge_order(mesh_);
         if (!vote)
-            refuse_header(cells_, "the order of the mid-edge nodes is unknown",
+            refuse_header("mesh.node-order", cells_, "the order of the mid-edge nodes is unknown",
                           "each near the middle of its edge, in the order of TetGen, Triangle, VTK or Gmsh",
                           "another order in most cells",
                           "check that the files belong together, or write the mesh again as " +
@@ -195,12 +197,14 @@ NodeTable read_node_table(const std::string& path, int dimension, const PointOpt
     // Points in space may lie in the plane of a mesh.
     if ((std::cmp_less(found, dimension) && options.columns.empty()) || found < 2 || found > 3) {
         const std::string d = std::to_string(dimension);
-        refuse_header(table, "bad dimension in the header", d + ", for the mesh is " + d + "-dimensional",
-                      std::to_string(found), "give points of the dimension of the mesh");
+        refuse_header("point.dimension", table, "bad dimension in the header",
+                      d + ", for the mesh is " + d + "-dimensional", std::to_string(found),
+                      "give points of the dimension of the mesh");
     }
     table.any_real = options.nonfinite_points == NonfinitePoints::nan;
     table.surplus_remedy = "mend the header: nodes, dimension, attributes, markers";
     table.finite_remedy = std::string("remove the point, give it coordinates") + or_nan_for_it;
+    table.finite_subject = nonfinite_points;
     PointTable points;
     points.dimension = static_cast<int>(found);
     points.of_nodes = true;

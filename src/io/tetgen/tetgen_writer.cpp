@@ -87,7 +87,7 @@ Status write_tetgen(const Mesh& mesh, const std::string& stem, const WriteOption
     const ExactEnvironment environment;
     if (const char* const fault = mesh::inconsistency(mesh); fault != nullptr) {
         const bool values_alone = mesh::inconsistency(mesh, mesh::FieldValues::any) == nullptr;
-        return file_error(stem, std::string("cannot write the mesh: ") + fault, {}, {},
+        return file_error("mesh.inconsistent", stem, std::string("cannot write the mesh: ") + fault, {}, {},
                           values_alone ? "choose .vtu, .vtk or .msh, which hold it" : "correct the mesh in memory");
     }
     struct FileOfStem {
@@ -103,7 +103,7 @@ Status write_tetgen(const Mesh& mesh, const std::string& stem, const WriteOption
     for (const FileOfStem& part : parts) {
         const std::string target = stem + part.suffix;
         if (!part.present && io::exists(target))
-            return file_error(target, "a file of another mesh exists",
+            return file_error("file.overwrite", target, "a file of another mesh exists",
                               "no such file: the mesh to be written has no data for it", {},
                               "remove it, or choose another name");
         if (!part.present) continue;

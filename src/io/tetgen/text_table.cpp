@@ -176,7 +176,7 @@ void read_header(TextTable& table, std::span<const char* const> header_names) {
     if (table.bytes.starts_with("\xEF\xBB\xBF")) scanner.at += 3;
     const std::string expected = std::string("a header that begins with the number of ") + header_names[0];
     if (!scanner.next_row(table.end()))
-        refuse_header(table, "the file is empty", expected, "nothing", "write the file again");
+        refuse_header("file.empty", table, "the file is empty", expected, "nothing", "write the file again");
     const char* const header = scanner.at;
     table.header_at = static_cast<std::size_t>(header - table.begin());
     scanner.skip_line();
@@ -187,8 +187,9 @@ void read_header(TextTable& table, std::span<const char* const> header_names) {
         std::int64_t value = 0;
         const bool integer = scan_integer(field.data(), value) == field.data() + field.size();
         if (i == header_names.size() && field != "BIN")
-            refuse_header(table, "too many numbers in the header", "at most " + std::to_string(header_names.size()),
-                          base::quoted(field), "remove it or put # before it");
+            refuse_header("file.syntax", table, "too many numbers in the header",
+                          "at most " + std::to_string(header_names.size()), base::quoted(field),
+                          "remove it or put # before it");
         if (!integer || value < 0 || value > max_count)
             refuse_count(table, field, i < header_names.size() ? header_names[i] : "columns");
         table.header.push_back(static_cast<std::size_t>(value));

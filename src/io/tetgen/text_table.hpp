@@ -56,7 +56,8 @@ struct TextTable {
     std::vector<Columns> columns;
     std::string surplus_remedy;  ///< what to mend if rows have more columns than the header tells
     std::string finite_remedy = "give every node and cell finite numbers";
-    bool any_real = false;  ///< numbers may be nan and inf
+    std::string finite_subject = {};  ///< the member of options that the remedy names
+    bool any_real = false;            ///< numbers may be nan and inf
 
     const char* begin() const { return bytes.data(); }
     const char* end() const { return begin() + bytes.size(); }
@@ -86,8 +87,8 @@ std::vector<std::string_view> fields_of_line(const TextTable& table, const char*
 
 /// As refuse_line(), of the header.
 template <class... Parts>
-[[noreturn]] void refuse_header(const TextTable& table, Parts&&... parts) {
-    refuse_line(table.file, line_of(table.bytes, table.begin() + table.header_at), std::forward<Parts>(parts)...);
+[[noreturn]] void refuse_header(ErrorCode code, const TextTable& table, Parts&&... parts) {
+    refuse_line(code, table.file, line_of(table.bytes, table.begin() + table.header_at), std::forward<Parts>(parts)...);
 }
 
 /// Header field `field` is no count; `name` is what it counts.

@@ -41,7 +41,7 @@ Result<std::unique_ptr<VtiWriter>> VtiWriter::open(const std::string& path, cons
         writer->places_.push_back({end, 0, base::Spool(path)});
         end += size + appended_header;
         if (end > INT64_MAX / 2)  // room is left for the head and the tail
-            return wrong_in_memory(path, "the size of the arrays", "less than 2^62 bytes", "more");
+            return wrong_in_memory("argument.size", path, "the size of the arrays", "less than 2^62 bytes", "more");
     }
     if (data == VtkData::raw) {
         const std::string head = raw_head(writer->layout_);
@@ -71,14 +71,14 @@ Status VtiWriter::write(std::size_t array, std::span<const std::byte> bytes) {
     const std::string name = "array \"" + arrays()[array].format.name + '"';
     const std::uint64_t size = arrays()[array].size();
     if (bytes.size() > size - place.done)
-        return file_error(path_, "the bytes of " + name, std::to_string(size) + " in all", "more");
+        return file_error("argument.size", path_, "the bytes of " + name, std::to_string(size) + " in all", "more");
     if (data_ != VtkData::raw) {
         place.done += bytes.size();
         return place.bytes.append(bytes);
     }
     const bool headed = place.done != 0 || put(place.begin, bytes_of(std::span(&size, 1)));
     if (!headed || !put(place.begin + appended_header + place.done, bytes_of(bytes)))
-        return file_error(path_, name + " is not next",
+        return file_error("file.pipe", path_, name + " is not next",
                           "one array after the other, as the file cannot be written elsewhere",
                           "arrays that take turns", "write to a file instead of a pipe or device");
     place.done += bytes.size();
@@ -89,8 +89,8 @@ Status VtiWriter::commit() {
     for (std::size_t i = 0; i < places_.size(); ++i) {
         OutArray& array = arrays()[i];
         if (places_[i].done != array.size())
-            return file_error(path_, "the bytes of array \"" + array.format.name + '"', std::to_string(array.size()),
-                              std::to_string(places_[i].done));
+            return file_error("argument.size", path_, "the bytes of array \"" + array.format.name + '"',
+                              std::to_string(array.size()), std::to_string(places_[i].done));
         if (data_ == VtkData::raw) continue;
         if (Status done = places_[i].bytes.finish(); !done) return done;
         array.bytes = places_[i].bytes.values<char>().data();

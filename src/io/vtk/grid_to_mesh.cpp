@@ -83,10 +83,11 @@ int choose(const TypeCounts& counts, const RawGrid& grid, const std::string& pat
     const std::string others =
         counts_by_name(counts, true, [](std::uint8_t type) { return cell_types()[type].kind == CellKind::other; });
     if (!others.empty())
-        refuse_file(path, "cells whose corners are not known", "polygons, polyhedra and what has a shape of its own",
-                    others, to_simplices(path));
+        refuse_file("mesh.cell-type", path, "cells whose corners are not known",
+                    "polygons, polyhedra and what has a shape of its own", others, to_simplices(path));
     if (dimension == 0)
-        refuse_file(path, "the file contains no mesh", "cells that fill space, or polygons in the plane z = 0",
+        refuse_file("mesh.empty", path, "the file contains no mesh",
+                    "cells that fill space, or polygons in the plane z = 0",
                     std::to_string(grid.types.size()) + " cells of other kinds",
                     "name a file with cells; this one may contain points only");
     return dimension;
@@ -111,13 +112,13 @@ void check_cells(const RawGrid& grid, const std::string& path) {
         if (type.kind == CellKind::lower || type.kind == CellKind::other) continue;
         const std::size_t least = type.corners;
         if (type.nodes != 0 ? nodes != type.nodes : nodes < least)
-            refuse_file(path, "the nodes of cell " + std::to_string(cell) + " (from 0)",
+            refuse_file("mesh.node-count", path, "the nodes of cell " + std::to_string(cell) + " (from 0)",
                         (type.nodes != 0 ? std::to_string(type.nodes) : std::to_string(least) + " or more") + " in a " +
                             name_of(grid.types[cell]),
                         std::to_string(nodes));
         if (type.linear == vtk_polyhedron && grid.faces.face_ends.empty())
-            refuse_file(path, "the faces of cell " + std::to_string(cell) + " (from 0)", "those of a polyhedron",
-                        "none");
+            refuse_file("mesh.faces", path, "the faces of cell " + std::to_string(cell) + " (from 0)",
+                        "those of a polyhedron", "none");
     }
 }
 
@@ -177,7 +178,7 @@ void copy_shapes(const RawGrid& grid, std::size_t count, const std::string& path
         const CellType& type = cell_types()[grid.types[cell]];
         const std::span nodes = grid.cells.nodes(cell);
         if (mesh.dimension == 2 && mesh::corners_of(type, nodes).size() < 3)
-            refuse_file(path, "the nodes of cell " + std::to_string(cell) + " (from 0)",
+            refuse_file("mesh.node-count", path, "the nodes of cell " + std::to_string(cell) + " (from 0)",
                         (type.number == vtk_quadratic_polygon ? "6 or more in a " : "3 or more in a ") +
                             name_of(grid.types[cell]),
                         std::to_string(nodes.size()));
@@ -222,7 +223,7 @@ void take_cells(RawGrid& grid, const std::string& path, InSpace* space, Mesh& me
     mesh.cell_numbers = kept_cells(grid, mesh.dimension, ghosts);
     const std::size_t cells = mesh.cell_numbers.empty() && ghosts == 0 ? grid.types.size() : mesh.cell_numbers.size();
     if (cells == 0)
-        refuse_file(path, "the file contains no mesh", "cells of its own",
+        refuse_file("mesh.empty", path, "the file contains no mesh", "cells of its own",
                     std::to_string(ghosts) + " ghost cells (vtkGhostType)", "name the file of all pieces (.pvtu)");
     const auto leave_out = [&](bool there_are, std::string what) {
         if (there_are) mesh.notes.push_back({Note::Kind::left_out, std::move(what), path, true});
@@ -257,18 +258,20 @@ bool may_be_axes(const RawGrid& grid) {
 
 std::vector<double> to_points(std::vector<double> points, int dimension, const std::string& path,
                               const std::string& triangles, const std::string& one, InSpace* space) {
-    const auto refuse = [&](std::size_t number, const char* expected, const std::string& remedy) {
+    const auto refuse = [&](ErrorCode code, std::size_t number, const char* expected, const std::string& remedy) {
         const std::string of = " of " + one + " " + std::to_string(number / 3) + " (from 0)";
-        refuse_file(path, "xyz"[number % 3] + of, expected, base::shortest(points[number]), remedy);
+        refuse_file(code, path, "xyz"[number % 3] + of, expected, base::shortest(points[number]), remedy);
     };
-    if (!base::all_finite(points)) refuse(base::first_not_finite(points), "a finite number", "correct the point");
+    if (!base::all_finite(points))
+        refuse("mesh.coordinate", base::first_not_finite(points), "a finite number", "correct the point");
     if (dimension == 3) return points;
     std::size_t to = 0;
     const bool in_space = space != nullptr && !in_plane(points);
     if (in_space) space->points = points;
     for (std::size_t i = 0; i < points.size(); i += 3) {
         if (points[i + 2] != 0 && !in_space)  // those before have lost their z
-            refuse(i + 2, "0, as the mesh is 2D", plane_remedy(i == 0 ? points : std::vector<double>(), triangles));
+            refuse("mesh.off-plane", i + 2, "0, as the mesh is 2D",
+                   plane_remedy(i == 0 ? points : std::vector<double>(), triangles));
         points[to++] = points[i];
         points[to++] = points[i + 1];
     }

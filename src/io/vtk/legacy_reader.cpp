@@ -47,12 +47,12 @@ public:
         const bool minor = dot == std::string_view::npos || whole_number<unsigned>(version.substr(dot + 1));
         if (!known || !major || !minor || !next_word(first).empty()) {
             rest_ = all;  // of the line itself, not of the next one
-            fail("the first line", "\"# vtk DataFile Version 4.2\" or the like", shown(shown_first));
+            fail("file.format", "the first line", "\"# vtk DataFile Version 4.2\" or the like", shown(shown_first));
         }
         major_version_ = *major;
         rest_of_line();  // title
         const std::string type = take_keyword();
-        if (type != "ASCII" && type != "BINARY") fail("the third line", "ASCII or BINARY", shown(type));
+        if (type != "ASCII" && type != "BINARY") fail("file.syntax", "the third line", "ASCII or BINARY", shown(type));
         file_.has_lines = type == "ASCII";
     }
     bool binary() const { return !file_.has_lines; }
@@ -78,11 +78,11 @@ public:
     void end_line(const std::string& what) {
         const std::string_view more = rest_of_line();
         if (more.find_first_not_of(" \t") != std::string_view::npos)
-            fail("the line before " + what, "its end", shown(more));
+            fail("file.syntax", "the line before " + what, "its end", shown(more));
     }
     void expect(const char* wanted) {
         const std::string found = take_keyword();
-        if (found != wanted) fail("a keyword of the format", wanted, shown(found));
+        if (found != wanted) fail("file.syntax", "a keyword of the format", wanted, shown(found));
     }
     void skip_metadata() {
         rest_of_line();
@@ -95,7 +95,7 @@ public:
         const std::string_view word = next_word(rest_);
         const std::optional<std::uint64_t> value = parse_count(word);
         if (!value || *value > max_entities)
-            fail(what, "a count up to " + std::to_string(max_entities),
+            fail("file.count", what, "a count up to " + std::to_string(max_entities),
                  word.empty() ? "the end of the file" : shown(word));
         return static_cast<std::size_t>(*value);
     }
@@ -103,7 +103,7 @@ public:
         const std::string_view word = next_word(rest_);
         const std::optional<NumberType> type = type_of_name(capitals(word));
         if (!type || type == NumberType::text)
-            fail("the type of " + what, "double, float, int and the like", shown(word));
+            fail("file.number", "the type of " + what, "double, float, int and the like", shown(word));
         return *type;
     }
 
@@ -120,7 +120,8 @@ public:
         end_line(what);
         const std::optional<std::uint64_t> size = byte_count(type, count);
         if (!size || *size > rest_.size())
-            fail(what, std::to_string(count) + " numbers", "the end of the file before that", cut_off);
+            fail("file.truncated", what, std::to_string(count) + " numbers", "the end of the file before that",
+                 cut_off);
         constexpr bool swap = std::endian::native == std::endian::little;
         file_.check(read_binary(take_bytes(*size), type, swap, static_cast<std::size_t>(count), values), begin, what,
                     count, inexact);
@@ -130,7 +131,7 @@ public:
         take_numbers(what, binary() ? NumberType::uint8 : NumberType::float32, count, values);
         if (binary()) return;
         for (double& value : values) {
-            if (!(value >= 0 && value <= 1)) fail(what, "shares from 0 to 1", std::to_string(value));
+            if (!(value >= 0 && value <= 1)) fail("file.number", what, "shares from 0 to 1", std::to_string(value));
             value = std::floor(255 * value + 0.5);
         }
     }
@@ -138,15 +139,17 @@ public:
     void take_strings(const std::string& what, bool in_lines, std::uint64_t count, std::vector<std::string>* texts) {
         rest_of_line();
         for (std::uint64_t i = 0; i < count; ++i) {
-            if (rest_.empty()) fail(what, std::to_string(count) + " strings", std::to_string(i), cut_off);
+            if (rest_.empty())
+                fail("file.truncated", what, std::to_string(count) + " strings", std::to_string(i), cut_off);
             const bool line = !binary() || in_lines;
             const std::string_view text = line ? rest_of_line() : counted_string(what);
             if (texts != nullptr) texts->push_back(line ? decoded(text) : std::string(text));
         }
     }
 
-    [[noreturn]] void fail(std::string what, std::string expected, std::string found, std::string remedy = {}) const {
-        file_.refuse(rest_.data(), std::move(what), std::move(expected), std::move(found), std::move(remedy));
+    [[noreturn]] void fail(ErrorCode code, std::string what, std::string expected, std::string found,
+                           std::string remedy = {}) const {
+        file_.refuse(code, rest_.data(), std::move(what), std::move(expected), std::move(found), std::move(remedy));
     }
 
 protected:
@@ -154,11 +157,13 @@ protected:
         // The two highest bits say how many bytes the length takes: 8, 4, 2 or 1.
         const auto lead = static_cast<unsigned char>(rest_.front());
         const std::size_t width = std::size_t{8} >> (lead >> 6U);
-        if (rest_.size() < width) fail(what, "the length of a string", "the end of the file", cut_off);
+        if (rest_.size() < width)
+            fail("file.truncated", what, "the length of a string", "the end of the file", cut_off);
         std::uint64_t length = lead & 0x3FU;
         for (std::size_t k = 1; k < width; ++k) length = length << 8U | static_cast<unsigned char>(rest_[k]);
         rest_.remove_prefix(width);
-        if (length > rest_.size()) fail(what, "a string of " + std::to_string(length) + " bytes", "less", cut_off);
+        if (length > rest_.size())
+            fail("file.truncated", what, "a string of " + std::to_string(length) + " bytes", "less", cut_off);
         return take_bytes(length);
     }
 
@@ -182,7 +187,7 @@ public:
         read_data_set();
         for (std::string keyword = take_keyword(); !keyword.empty(); keyword = take_keyword()) read_section(keyword);
         if (!structured_ && !has_points_ && (part_ != Wanted::all || cell_count() != 0))
-            fail("the file has no points", "POINTS", "none");
+            fail("mesh.empty", "the file has no points", "POINTS", "none");
         if (structured_) make_structured();
         if (part_ == Wanted::all && !structured_) gather_cells();
         return std::move(grid_);
@@ -195,7 +200,7 @@ private:
         polydata_ = keyword == "POLYDATA";
         structured_ = keyword.starts_with("STRUCTURED_") || keyword == "RECTILINEAR_GRID";
         if (!polydata_ && !structured_ && keyword != "UNSTRUCTURED_GRID")
-            fail("the kind of the data set",
+            fail("file.unsupported", "the kind of the data set",
                  "UNSTRUCTURED_GRID, POLYDATA, STRUCTURED_POINTS, RECTILINEAR_GRID or STRUCTURED_GRID",
                  in_quotes(keyword));
         rectilinear_ = keyword == "RECTILINEAR_GRID";
@@ -207,11 +212,11 @@ private:
     bool read_structure(const std::string& keyword) {
         StructuredGrid& grid = grid_of_axes_;
         if (keyword == "DIMENSIONS") {
-            if (has_dimensions_) fail("a second line DIMENSIONS", "one", "two");
+            if (has_dimensions_) fail("file.duplicate", "a second line DIMENSIONS", "one", "two");
             has_dimensions_ = true;
             for (std::size_t& count : grid.counts) count = take_count("the points along an axis");
             if (const std::string fault = grid.fault(part_, along_axes_); !fault.empty())
-                fail("the points of the grid", fault, "more");
+                fail("mesh.too-large", "the points of the grid", fault, "more");
             point_count_ = grid.point_count();
             return true;
         }
@@ -219,16 +224,17 @@ private:
             for (double& x : keyword == "ORIGIN" ? origin_ : spacing_) {
                 const std::string word = take_word();
                 x = real_of_word(word, true).value_or(HUGE_VAL);
-                if (!std::isfinite(x)) fail("the origin or spacing of the grid", "a finite number", shown(word));
+                if (!std::isfinite(x))
+                    fail("mesh.coordinate", "the origin or spacing of the grid", "a finite number", shown(word));
             }
             return true;
         }
         const std::size_t axis = std::string_view("XYZ").find(keyword[0]);
         if (!rectilinear_ || axis == std::string_view::npos || keyword.substr(1) != "_COORDINATES") return false;
-        if (!grid.axes[axis].empty()) fail("a second section " + keyword, "one", "two");
+        if (!grid.axes[axis].empty()) fail("file.duplicate", "a second section " + keyword, "one", "two");
         const std::size_t count = take_count("the points along an axis");
         if (count != grid.counts[axis])
-            fail("the points along an axis", std::to_string(grid.counts[axis]) + ", as DIMENSIONS says",
+            fail("file.count", "the points along an axis", std::to_string(grid.counts[axis]) + ", as DIMENSIONS says",
                  std::to_string(count));
         const NumberType type = take_type("the coordinates along an axis");
         grid_.narrow_points = grid_.narrow_points || type == NumberType::float32;
@@ -241,13 +247,14 @@ private:
         if (is_made_) return;
         is_made_ = true;
         StructuredGrid& grid = grid_of_axes_;
-        if (!has_dimensions_) fail("the points of the grid", "DIMENSIONS before data", "none");
+        if (!has_dimensions_) fail("file.syntax", "the points of the grid", "DIMENSIONS before data", "none");
         if (!has_points_ || (!along_axes_ && grid_.points.size() != 3 * point_count_))
-            fail("the points of the grid", "POINTS before data", "none");
+            fail("file.syntax", "the points of the grid", "POINTS before data", "none");
         for (std::size_t axis = 0; along_axes_ && axis < 3; ++axis) {
             std::vector<double>& own = grid.axes[axis];
             if (rectilinear_ && own.size() != grid.counts[axis])
-                fail("the points of the grid", std::string(1, "XYZ"[axis]) + "_COORDINATES before data", "none");
+                fail("file.syntax", "the points of the grid", std::string(1, "XYZ"[axis]) + "_COORDINATES before data",
+                     "none");
             // Rounded twice, as VTK has them.
             for (std::size_t i = 0; !rectilinear_ && point_count_ != 0 && i < grid.counts[axis]; ++i)
                 own.push_back(origin_[axis] + spacing_[axis] * static_cast<double>(i));
@@ -269,18 +276,22 @@ private:
         if (structured_ && (keyword == "POINT_DATA" || keyword == "CELL_DATA")) make_structured();
         if (keyword == "POINT_DATA") return read_attributes(keyword, point_count_, ", one a point", grid_.point_arrays);
         if (keyword == "CELL_DATA") return read_attributes(keyword, cell_count(), ", one a cell", grid_.cell_arrays);
-        fail("a keyword of the format", "POINTS, CELLS, POINT_DATA and the like", in_quotes(keyword), too_many);
+        fail("file.syntax", "a keyword of the format", "POINTS, CELLS, POINT_DATA and the like", in_quotes(keyword),
+             too_many);
     }
 
     void read_points() {
-        if (along_axes_) fail("the points of the grid", "DIMENSIONS and what lies along the axes", "POINTS");
-        if (structured_ && !has_dimensions_) fail("the points of the grid", "DIMENSIONS before POINTS", "none");
+        if (along_axes_)
+            fail("file.syntax", "the points of the grid", "DIMENSIONS and what lies along the axes", "POINTS");
+        if (structured_ && !has_dimensions_)
+            fail("file.syntax", "the points of the grid", "DIMENSIONS before POINTS", "none");
         const std::size_t count = take_count("the number of points");
         if (structured_ && count != point_count_)
-            fail("the number of points", std::to_string(point_count_) + ", as DIMENSIONS says", std::to_string(count));
+            fail("file.count", "the number of points", std::to_string(point_count_) + ", as DIMENSIONS says",
+                 std::to_string(count));
         point_count_ = count;
         const NumberType type = take_type("the points");
-        if (has_points_) fail("a second section POINTS", "one", "two");
+        if (has_points_) fail("file.duplicate", "a second section POINTS", "one", "two");
         has_points_ = true;
         grid_.narrow_points = type == NumberType::float32;
         take_numbers("the coordinates", type, std::uint64_t{3} * point_count_, grid_.points);
@@ -288,7 +299,7 @@ private:
     }
 
     void read_cells(RawCells& cells) {
-        if (!cells.ends.empty()) fail("a second section of the same cells", "one", "two");
+        if (!cells.ends.empty()) fail("file.duplicate", "a second section of the same cells", "one", "two");
         const std::size_t count = take_count("the number of cells"), size = take_count("the size of the cells");
         major_version_ >= 5 ? read_offsets(cells, count, size) : read_rows(cells, count, size);
     }
@@ -303,8 +314,8 @@ private:
         const bool grows = std::is_sorted(cells.ends.begin(), cells.ends.end());
         if (!grows || cells.ends.empty() || cells.ends.front() != 0 ||
             cells.ends.back() != static_cast<std::int64_t>(nodes))
-            fail("the offsets of cells", "0 first, none below the one before it, " + std::to_string(nodes) + " last",
-                 "others");
+            fail("file.count", "the offsets of cells",
+                 "0 first, none below the one before it, " + std::to_string(nodes) + " last", "others");
         cells.ends.erase(cells.ends.begin());
     }
 
@@ -318,14 +329,14 @@ private:
         for (std::size_t cell = 0; cell < count; ++cell) {
             const std::int32_t nodes = at < rows.size() ? rows[at] : -1;
             if (nodes < 0 || static_cast<std::size_t>(nodes) > rows.size() - at - 1)
-                fail("the nodes of cell " + std::to_string(cell) + " (from 0)",
+                fail("mesh.node-count", "the nodes of cell " + std::to_string(cell) + " (from 0)",
                      "as many as fit in the " + std::to_string(size) + " numbers of the section",
                      at < rows.size() ? std::to_string(nodes) : "none");
             at += 1 + static_cast<std::size_t>(nodes);
             cells.ends[cell] = static_cast<std::int64_t>(at - cell - 1);
         }
         if (at != rows.size())
-            fail("the size of the cells", std::to_string(at) + " numbers, as the cells have",
+            fail("file.count", "the size of the cells", std::to_string(at) + " numbers, as the cells have",
                  std::to_string(rows.size()));
         base::resize_large(cells.connectivity, rows.size() - count);
         in_parts(count, std::size_t{1} << 15, [&](std::size_t first, std::size_t last) {
@@ -338,7 +349,7 @@ private:
     }
 
     void read_types() {
-        if (!grid_.types.empty()) fail("a second section CELL_TYPES", "one", "two");
+        if (!grid_.types.empty()) fail("file.duplicate", "a second section CELL_TYPES", "one", "two");
         const std::size_t count = take_count("the number of cell types");
         take_numbers("the cell types", NumberType::int32, count, grid_.types);
     }
@@ -351,7 +362,8 @@ private:
 
     void gather_cells() {
         if (!polydata_ && grid_.types.size() != cell_count())
-            fail("the cell types", std::to_string(cell_count()) + ", one a cell", std::to_string(grid_.types.size()));
+            fail("file.count", "the cell types", std::to_string(cell_count()) + ", one a cell",
+                 std::to_string(grid_.types.size()));
         for (std::size_t i = 0; i < section_count; ++i)
             grid_.append(std::move(sections_[i]), polydata_ ? std::optional(static_cast<Section>(i)) : std::nullopt);
         RawCells& cells = grid_.cells;
@@ -359,7 +371,7 @@ private:
         const std::size_t wrong = first_wrong_node(cells.connectivity, grid_.point_count());
         if (wrong == cells.connectivity.size()) return;
         const auto cell = std::ranges::upper_bound(cells.ends, static_cast<std::int64_t>(wrong)) - cells.ends.begin();
-        refuse_file(file_.path, "a node of cell " + std::to_string(cell) + " (from 0)",
+        refuse_file("mesh.node-index", file_.path, "a node of cell " + std::to_string(cell) + " (from 0)",
                     "a point below " + std::to_string(grid_.point_count()), std::to_string(cells.connectivity[wrong]));
     }
 
@@ -379,7 +391,7 @@ private:
                 plain.connectivity.insert(plain.connectivity.end(), nodes.begin(),
                                           std::unique(nodes.begin(), nodes.end()));
             } else {
-                refuse_file(file_.path, "the faces of cell " + std::to_string(cell) + " (from 0)",
+                refuse_file("mesh.faces", file_.path, "the faces of cell " + std::to_string(cell) + " (from 0)",
                             "nodes of faces below " + std::to_string(grid_.point_count()), "others");
             }
             plain.ends.push_back(static_cast<std::int64_t>(plain.connectivity.size()));
@@ -391,7 +403,8 @@ private:
     void read_attributes(const std::string& keyword, std::size_t expected, const char* each,
                          std::vector<RawArray>& arrays) {
         const std::size_t rows = take_count("the rows of " + keyword);
-        if (rows != expected) fail("the rows of " + keyword, std::to_string(expected) + each, std::to_string(rows));
+        if (rows != expected)
+            fail("file.count", "the rows of " + keyword, std::to_string(expected) + each, std::to_string(rows));
         while (true) {
             const std::string_view before = rest_;
             const std::string kind = take_keyword();
@@ -418,7 +431,7 @@ private:
              {"TEXTURE_COORDINATES COLOR_SCALARS", 0}}};
         const auto* const known = std::ranges::find_if(kinds, [&](auto& one) { return has_word(one.first, kind); });
         if (known == kinds.end())
-            fail("a kind of array", "SCALARS, VECTORS, FIELD and the like", in_quotes(kind), too_many);
+            fail("file.syntax", "a kind of array", "SCALARS, VECTORS, FIELD and the like", in_quotes(kind), too_many);
         std::size_t components = known->second;
         if (components == 0) components = take_count("the components of array " + in_quotes(name));
         if (kind == "COLOR_SCALARS") return read_array(name, std::nullopt, components, rows, arrays);
@@ -428,7 +441,8 @@ private:
             const std::string_view more = rest_of_line();
             const std::optional<std::uint64_t> count = parse_count(more);
             if (!count && more.find_first_not_of(" \t") != std::string_view::npos)
-                fail("the components of array " + in_quotes(name), "a count, or the end of the line", shown(more));
+                fail("file.syntax", "the components of array " + in_quotes(name), "a count, or the end of the line",
+                     shown(more));
             if (count) components = static_cast<std::size_t>(std::min(*count, max_entities + 1));
             if (take("LOOKUP_TABLE")) take_name();
         }
@@ -446,7 +460,8 @@ private:
             const std::size_t components = take_count("the components of array " + in_quotes(name));
             const std::size_t tuples = take_count("the rows of array " + in_quotes(name));
             if (arrays != nullptr && tuples != rows)
-                fail("the rows of array " + in_quotes(name), std::to_string(rows), std::to_string(tuples));
+                fail("file.count", "the rows of array " + in_quotes(name), std::to_string(rows),
+                     std::to_string(tuples));
             const std::string type = take_word();
             std::vector<RawArray> loose;
             read_array(name, type, components, tuples, arrays != nullptr ? *arrays : loose);
@@ -461,16 +476,16 @@ private:
         const bool of_points = &arrays == &grid_.point_arrays, of_cells = &arrays == &grid_.cell_arrays;
         if (components == 0 && rows != 0 && !of_points && !of_cells) components = 1;
         if (components == 0 || components > max_entities)
-            fail("the components of " + what, "1 or more", std::to_string(components));
+            fail("file.count", "the components of " + what, "1 or more", std::to_string(components));
         if (std::ranges::count(arrays, name, &RawArray::name) != 0)
-            fail("two arrays of one section", "different names", in_quotes(name) + " twice",
+            fail("file.duplicate", "two arrays of one section", "different names", in_quotes(name) + " twice",
                  "give them different names");
         RawArray& array = arrays.emplace_back(RawArray{.name = name, .components = static_cast<int>(components)});
         const std::uint64_t numbers = static_cast<std::uint64_t>(components) * rows;
         const bool may_label = of_cells || (of_points && part_ == Wanted::point_arrays);
         if (!type) return take_colors(what, numbers, array.numbers());
         const std::optional<NumberType> known = type_of_name(capitals(*type));
-        if (!known) fail("the type of " + what, "double, float, int and the like", in_quotes(*type));
+        if (!known) fail("file.syntax", "the type of " + what, "double, float, int and the like", in_quotes(*type));
         if (known == NumberType::text) {
             std::vector<std::string> texts;
             const bool wanted = takes_texts(array, may_label);

@@ -290,7 +290,7 @@ Status write_mesh(const Mesh& mesh, const std::string& path, VtkData data, Names
         return names == Names::xml ? write_grid(std::move(grid), path, data)
                                    : LegacyWriter(path, data == VtkData::ascii).write(std::move(grid), node);
     } catch (const std::bad_alloc&) {
-        return file_error(path, "too little memory to write the mesh", {}, {}, "free some memory");
+        return file_error("memory.short", path, "too little memory to write the mesh", {}, {}, "free some memory");
     }
 }
 
@@ -343,8 +343,8 @@ public:
             if constexpr (std::is_same_v<T, std::string>) {
                 const auto bad = std::ranges::find_if(values, has_zero_byte);
                 if (bad != values.end() && good)
-                    good = file_error(path_, "a text with a zero byte, which ends a text in VTK's files", {},
-                                      bad->substr(0, 40), "carry another column through, or write a .csv file");
+                    good = file_error("field.type", path_, "a text with a zero byte, which ends a text in VTK's files",
+                                      {}, bad->substr(0, 40), "carry another column through, or write a .csv file");
                 append(with_ends(values));
             } else {
                 append(values);
@@ -404,9 +404,9 @@ Status write_vtu(const Mesh& mesh, const std::string& path, VtkData data) {
 Status write_vtk(const Mesh& mesh, const std::string& path, VtkData data) {
     if (path.ends_with(".vtu")) return write_vtu(mesh, path, data);
     if (!path.ends_with(".vtk"))
-        return file_error(path, "unknown file suffix", ".vtu or .vtk", {}, "use one of these suffixes");
+        return file_error("file.suffix", path, "unknown file suffix", ".vtu or .vtk", {}, "use one of these suffixes");
     if (data != VtkData::raw && data != VtkData::ascii)
-        return file_error(path, "legacy files of VTK (.vtk) know no compression", "raw or ascii",
+        return file_error("option.unfit", path, "legacy files of VTK (.vtk) know no compression", "raw or ascii",
                           std::string(name(data)), "write a .vtu file");
     return io::write_mesh(mesh, path, data, io::Names::legacy);
 }

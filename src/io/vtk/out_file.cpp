@@ -241,27 +241,29 @@ std::string fault_of_names(const std::vector<OutArray>& arrays, Names names) {
 }
 
 Error cannot_write(const std::string& what, const std::string& fault, const std::string& path) {
-    return file_error(path, "cannot write " + what + ": " + fault, {}, {}, "correct it in memory");
+    return file_error("mesh.inconsistent", path, "cannot write " + what + ": " + fault, {}, {}, "correct it in memory");
 }
 
 Status check_arrays(const std::string& path, const std::vector<OutArray>& arrays) {
     for (const OutArray& array : arrays) {
         const auto& [name, components, type] = array.format;
-        if (name.empty()) return wrong_in_memory(path, "the name of an array", "one", "none");
+        if (name.empty()) return wrong_in_memory("field.type", path, "the name of an array", "one", "none");
         if (!xml_attribute(name))
-            return wrong_in_memory(path, "the name of an array", "text in UTF-8 without control characters",
-                                   '"' + name + '"');
+            return wrong_in_memory("field.type", path, "the name of an array",
+                                   "text in UTF-8 without control characters", '"' + name + '"');
         if (components < 1)
-            return wrong_in_memory(path, "the components of array \"" + name + '"', "1 or more",
+            return wrong_in_memory("field.component", path, "the components of array \"" + name + '"', "1 or more",
                                    std::to_string(components));
     }
     if (const std::string* const twice = name_twice(arrays); twice != nullptr)
-        return wrong_in_memory(path, "the names of arrays", "different ones", '"' + *twice + "\" twice");
+        return wrong_in_memory("column.duplicate", path, "the names of arrays", "different ones",
+                               '"' + *twice + "\" twice");
     return Done{};
 }
 
-Error wrong_in_memory(const std::string& path, std::string what, std::string expected, std::string found) {
-    return file_error(path, std::move(what), std::move(expected), std::move(found),
+Error wrong_in_memory(ErrorCode code, const std::string& path, std::string what, std::string expected,
+                      std::string found) {
+    return file_error(code, path, std::move(what), std::move(expected), std::move(found),
                       "correct what is to be written, or its arrays, in memory");
 }
 
@@ -279,7 +281,7 @@ Status write_xml(const OutFile& f, const std::string& path, VtkData data) {
     } else if (data == VtkData::ascii) {
         write_text(f, file);
     } else if (!write_compressed(f, data, file)) {
-        return file_error(path, "too little memory to compress the data", {}, {}, "free some memory");
+        return file_error("memory.short", path, "too little memory to compress the data", {}, {}, "free some memory");
     }
     return file.commit();
 }

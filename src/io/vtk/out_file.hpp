@@ -94,7 +94,8 @@ Error cannot_write(const std::string& what, const std::string& fault, const std:
 /// Error: a name that is empty, there twice, or that XML cannot hold; fewer than one component.
 Status check_arrays(const std::string& path, const std::vector<OutArray>& arrays);
 
-Error wrong_in_memory(const std::string& path, std::string what, std::string expected, std::string found);
+Error wrong_in_memory(ErrorCode code, const std::string& path, std::string what, std::string expected,
+                      std::string found);
 
 struct OutSection {
     std::string element;

@@ -16,12 +16,14 @@ void FileText::check(NumberFault fault, const char* begin, const std::string& wh
         case NumberFault::Kind::none:
             return;
         case NumberFault::Kind::too_few:
-            refuse(at, what, std::to_string(count) + " numbers", std::to_string(fault.index), cut_off);
+            refuse("file.truncated", at, what, std::to_string(count) + " numbers", std::to_string(fault.index),
+                   cut_off);
         case NumberFault::Kind::no_number:
-            refuse(at, number, "a number of the type of the array", in_quotes(fault.text),
+            refuse("file.number", at, number, "a number of the type of the array", in_quotes(fault.text),
                    about_real(fault.text, {}, {}).remedy);
         case NumberFault::Kind::not_exact:
-            if (inexact == nullptr) refuse(at, number, "a number that fits what it stands for", fault.text);
+            if (inexact == nullptr)
+                refuse("file.number", at, number, "a number that fits what it stands for", fault.text);
             *inexact = std::move(fault);
     }
 }
@@ -261,7 +263,7 @@ void append_piece(RawGrid& grid, RawGrid piece, const std::string& path) {
     }
     const std::size_t points = grid.point_count(), cells = grid.types.size();
     if (points + piece.point_count() > max_entities || cells + piece.cell_count() > max_entities)
-        refuse_file(path, "more points or cells than a mesh can have",
+        refuse_file("mesh.too-large", path, "more points or cells than a mesh can have",
                     "at most " + std::to_string(max_entities) + " in all pieces");
     grid.narrow_points = grid.narrow_points || piece.narrow_points;
     grid.has_steps = grid.has_steps || piece.has_steps;

@@ -140,8 +140,8 @@ struct FileText {
 
     /// As refuse_line().
     template <class... Parts>
-    [[noreturn]] void refuse(const char* at, Parts&&... parts) const {
-        refuse_line(path, has_lines ? line_of(bytes, at) : 0, std::forward<Parts>(parts)...);
+    [[noreturn]] void refuse(ErrorCode code, const char* at, Parts&&... parts) const {
+        refuse_line(code, path, has_lines ? line_of(bytes, at) : 0, std::forward<Parts>(parts)...);
     }
     /// Throws what is wrong with the `count` numbers of `what`, which begin there; a number that is not exact is told
     /// in `inexact` instead, if that is given.

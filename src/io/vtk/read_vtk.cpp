@@ -64,10 +64,12 @@ std::optional<Collection> files_of(const XmlTree& tree) {
         const std::string_view name = element.attribute_or(attribute, "");
         if (name.empty() && type.starts_with("vtk")) continue;  // an empty block
         if (name.empty())
-            tree.refuse_at(element, "an entry without a file", "an attribute " + std::string(attribute), "none");
+            tree.refuse_at("file.syntax", element, "an entry without a file", "an attribute " + std::string(attribute),
+                           "none");
         const std::string_view time = collection.is_series ? element.attribute_or("timestep", "0") : "0";
         const double value = real_of_word(time, true).value_or(HUGE_VAL);
-        if (!std::isfinite(value)) tree.refuse_at(element, "the time of a step", "a finite number", in_quotes(time));
+        if (!std::isfinite(value))
+            tree.refuse_at("file.number", element, "the time of a step", "a finite number", in_quotes(time));
         collection.files.push_back({path_beside(tree.path, name), std::string(element.attribute_or("name", "")), value,
                                     line_of(tree.bytes, tree.bytes.data() + element.begin)});
     }
@@ -78,36 +80,37 @@ std::optional<Collection> files_of(const XmlTree& tree) {
 /// ...]}. Error: no JSON, a member that is missing or of another kind, a time that is not finite, a file of more than
 /// 64 MiB.
 Collection read_series_file(std::string_view bytes, const std::string& path) {
-    const auto refuse = [&](const std::string& what, const std::string& expected, const std::string& found,
-                            std::size_t line = 0) {
-        refuse_line(path, line, what, expected, found, "correct the file");
+    const auto refuse = [&](ErrorCode code, const std::string& what, const std::string& expected,
+                            const std::string& found, std::size_t line = 0) {
+        refuse_line(code, path, line, what, expected, found, "correct the file");
     };
     const auto kind = [](const Json& json) { return json.is_discarded() ? "none" : json.type_name(); };
     if (bytes.size() > longest_series)
-        refuse("the series file is too large", "at most " + std::to_string(longest_series) + " bytes",
+        refuse("file.too-large", "the series file is too large", "at most " + std::to_string(longest_series) + " bytes",
                std::to_string(bytes.size()));
     Json series;
     try {
         series = Json::parse(bytes);
     } catch (const Json::parse_error& error) {
-        refuse("the series is no JSON", "a file as ParaView writes it (NAME.vtu.series)", "",
+        refuse("file.syntax", "the series is no JSON", "a file as ParaView writes it (NAME.vtu.series)", "",
                line_of(bytes, bytes.data() + std::min(error.byte, bytes.size())));
     } catch (const Json::exception&) {  // a number that no double holds
-        refuse("the series", "numbers in the range of double", "a larger one");
+        refuse("file.number", "the series", "numbers in the range of double", "a larger one");
     }
     const Json& files = member_of(series, "files");
-    if (!files.is_array()) refuse("the files of the series", "a member \"files\", an array", kind(files));
+    if (!files.is_array())
+        refuse("file.syntax", "the files of the series", "a member \"files\", an array", kind(files));
     Collection collection{.is_series = true};
     std::set<double> times;
     for (const Json& entry : files) {
         const std::string where = "entry " + std::to_string(collection.files.size() + 1) + " of \"files\"";
         const Json &name = member_of(entry, "name"), &time = member_of(entry, "time");
         if (!name.is_string() || name.get_ref<const std::string&>().empty())
-            refuse(where, "a member \"name\", the path of a file", kind(name));
+            refuse("file.syntax", where, "a member \"name\", the path of a file", kind(name));
         const double value = time.is_number() ? time.get<double>() : HUGE_VAL;
-        if (!std::isfinite(value)) refuse(where, "a member \"time\", a finite number", kind(time));
+        if (!std::isfinite(value)) refuse("file.number", where, "a member \"time\", a finite number", kind(time));
         if (!times.insert(value).second)
-            refuse_file(path, where, "a time of its own", "that of another entry",
+            refuse_file("file.duplicate", path, where, "a time of its own", "that of another entry",
                         "gather the parts of a step in a .pvtu file");
         collection.files.push_back({path_beside(path, name.get_ref<const std::string&>()), {}, value, 0});
     }
@@ -126,7 +129,7 @@ Kind kind_of(std::string_view& bytes) {
 }
 
 [[noreturn]] void refuse_other(const std::string& path, const char* what) {
-    refuse_file(path, what, "XML (.vtu, .vtp) or a first line '# vtk DataFile Version ...' (.vtk)", {},
+    refuse_file("file.format", path, what, "XML (.vtu, .vtp) or a first line '# vtk DataFile Version ...' (.vtk)", {},
                 "check the path; unpack a compressed file first");
 }
 
@@ -154,7 +157,8 @@ bool read_beginning(VtkFile& file, const std::string& path) {
         const auto at = static_cast<std::uint64_t>(part.data() - begin);
         if (input->read_at(at, {to, part.size()}, path).value() == part.size()) return;
         input->unchanged(path).value();
-        refuse_file(path, "the file ends before its size", std::to_string(input->size()) + " bytes", "fewer", cut_off);
+        refuse_file("file.truncated", path, "the file ends before its size", std::to_string(input->size()) + " bytes",
+                    "fewer", cut_off);
     };
     file.collection = files_of(*file.tree);
     return true;
@@ -225,12 +229,12 @@ public:
     RawGrid read(const std::string& path, int depth = 0) {
         constexpr int deepest = 16;
         if (depth == deepest)
-            refuse_file(path, "files that name files too deeply",
+            refuse_file("file.unsupported", path, "files that name files too deeply",
                         "at most " + std::to_string(deepest) + " of them one in the other", "more");
         std::error_code ignored;
         if (!seen_.insert(std::filesystem::weakly_canonical(path, ignored).string()).second)
-            refuse_file(path, "a file that is named twice in a collection of files", "every piece once", {},
-                        "correct the file that names it");
+            refuse_file("file.duplicate", path, "a file that is named twice in a collection of files",
+                        "every piece once", {}, "correct the file that names it");
         VtkFile file = open_vtk(path);
         if (const auto& named = file.collection; named)
             return named->is_series ? read_step(named->files, path, depth) : read_all(named->files, path, depth);
@@ -253,8 +257,8 @@ private:
             }
             std::error_code unknown;
             if (std::filesystem::status(file.path, unknown).type() == std::filesystem::file_type::not_found)
-                refuse_line(path, file.line, "a file that is named here is missing", file.path, "no such file",
-                            "put it there, or correct the name");
+                refuse_line("file.missing", path, file.line, "a file that is named here is missing", file.path,
+                            "no such file", "put it there, or correct the name");
             append_piece(grid, read(file.path, depth + 1), path);
         }
         const std::string left_out = std::to_string(others.size()) + " blocks beside those with the mesh: ";
@@ -299,7 +303,7 @@ Result<PointTable> read_table(const std::string& path, int dimension, bool array
             table.points = finite ? to_points(std::move(grid.points), dimension, path) : std::move(grid.points);
         } catch (const Exception& problem) {
             Error error = problem.error();
-            if (labels) error.remedy += or_nan_for_it;
+            if (labels) error = about(nonfinite_points, std::move(error)), error.remedy += or_nan_for_it;
             return error;
         }
         if (names != nullptr)
@@ -319,9 +323,10 @@ Result<std::size_t> chosen_step(const std::vector<SeriesStep>& steps, const Step
                                 const std::string& path) {
     const std::size_t number = choice.last ? steps.size() - 1 : choice.number.value_or(0);
     const auto error = [&](const std::string& expected, const std::string& found) {
-        return file_error(path, "no such step of the series", expected, found, "choose one of its steps");
+        return file_error("series.step", path, "no such step of the series", expected, found,
+                          "choose one of its steps");
     };
-    if (steps.empty()) return file_error(path, "a series without steps", "a file for each step", "none");
+    if (steps.empty()) return file_error("series.step", path, "a series without steps", "a file for each step", "none");
     if (number >= steps.size())
         return error("a number from 0 to " + std::to_string(steps.size() - 1), std::to_string(number));
     if (!choice.time) return number;
@@ -336,7 +341,7 @@ Result<std::size_t> chosen_step(const std::vector<SeriesStep>& steps, const Step
 }
 
 Error no_series(const std::string& path) {
-    return file_error(path, "a step is chosen, and this is no series of steps",
+    return file_error("series.none", path, "a step is chosen, and this is no series of steps",
                       "a .pvd, .vtu.series or .vtp.series file", {}, "leave --step and --time out");
 }
 
@@ -348,7 +353,7 @@ Result<std::vector<SeriesStep>> read_series(const std::string& path) {
     return io::read_guarded(path, [&]() -> Result<std::vector<SeriesStep>> {
         const io::VtkFile file = io::open_vtk(path);
         if (file.collection && file.collection->is_series) return io::steps_of(file.collection->files);
-        io::refuse_line(path, 1, "the kind of the file",
+        io::refuse_line("file.format", path, 1, "the kind of the file",
                         "a VTKFile of type Collection (.pvd), or ParaView's JSON (.vtu.series)",
                         file.tree ? io::in_quotes(file.tree->root().attribute_or("type", file.tree->root().name))
                                   : "neither XML nor JSON");
@@ -397,7 +402,7 @@ Result<std::vector<double>> read_vtk_points(const std::string& path, int dimensi
 Result<PointData> read_vtk_point_data(const std::string& path, int dimension,
                                       const std::optional<std::vector<std::string>>& names) {
     if (dimension != 2 && dimension != 3)
-        return file_error(path, "the dimension of points", "2 or 3", std::to_string(dimension));
+        return file_error("point.dimension", path, "the dimension of points", "2 or 3", std::to_string(dimension));
     Result<io::PointTable> table =
         io::read_table(path, dimension, !names || !names->empty(), names ? &*names : nullptr, false, true);
     if (!table) return table.error();

@@ -86,7 +86,7 @@ void RawGrid::list(const std::string& path) {
     if (!unlisted) return;
     const StructuredGrid grid = *unlisted;
     if (const std::string fault = grid.fault(StructuredGrid::listed); !fault.empty())
-        refuse_file(path, "the points of the grid", fault, std::to_string(grid.point_count()));
+        refuse_file("file.count", path, "the points of the grid", fault, std::to_string(grid.point_count()));
     list_points();
     add_cells(grid, *this);
 }

@@ -47,9 +47,10 @@ struct XmlTree : FileText {
     /// The texts of an array of strings, exactly `count`; likewise.
     std::vector<std::string> take_texts(const XmlElement& array, const std::string& what, std::uint64_t count) const;
 
-    [[noreturn]] void refuse_at(const XmlElement& at, std::string what, std::string expected, std::string found,
-                                std::string remedy = {}) const {
-        refuse(bytes.data() + at.begin, std::move(what), std::move(expected), std::move(found), std::move(remedy));
+    [[noreturn]] void refuse_at(ErrorCode code, const XmlElement& at, std::string what, std::string expected,
+                                std::string found, std::string remedy = {}) const {
+        refuse(code, bytes.data() + at.begin, std::move(what), std::move(expected), std::move(found),
+               std::move(remedy));
     }
 };
 

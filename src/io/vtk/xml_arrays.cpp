@@ -265,33 +265,33 @@ NumberFault read_any(const XmlTree& tree, const XmlElement& array, const std::st
     constexpr const char* other_count = "its numbers do not match the counts of points, cells and components";
     const std::string_view format = array.attribute_or("format", "ascii");
     if (format != "ascii" && format != "binary" && format != "appended")
-        tree.refuse_at(array, "the format of " + what, "ascii, binary or appended", in_quotes(format));
+        tree.refuse_at("file.syntax", array, "the format of " + what, "ascii, binary or appended", in_quotes(format));
     std::string_view text = format == "appended" ? tree.appended : tree.text_of(array);
     if (format == "ascii") {
         NumberFault fault = read_text(text, type, static_cast<std::size_t>(count.value_or(all)), values);
         if (fault.kind == NumberFault::Kind::too_few) return count ? fault : NumberFault{};
         if (fault.kind != NumberFault::Kind::no_number && !next_word(text).empty())
-            tree.refuse_at(array, what, std::to_string(*count) + " numbers", "more", other_count);
+            tree.refuse_at("file.count", array, what, std::to_string(*count) + " numbers", "more", other_count);
         return fault;
     }
     if (count == 0U) return {};  // without a number there may be no header either
     const std::optional<std::uint64_t> size = byte_count(type, count.value_or(0));
-    if (!size) tree.refuse_at(array, "the size of " + what, "less than 2^64 bytes", "more");
+    if (!size) tree.refuse_at("file.too-large", array, "the size of " + what, "less than 2^64 bytes", "more");
     if (format == "appended") {
         const std::string_view offset = array.attribute_or("offset", "");
         const std::uint64_t begin = parse_count(offset).value_or(all);
         if (begin >= text.size())
-            tree.refuse_at(array, "the offset of " + what + " into the appended data",
+            tree.refuse_at("file.truncated", array, "the offset of " + what + " into the appended data",
                            "less than " + std::to_string(text.size()) + ", the bytes from there to the end of the file",
                            in_quotes(offset), cut_off);
         text.remove_prefix(static_cast<std::size_t>(begin));
     }
     ArrayData data(Encoded(text, format == "binary" || !tree.appended_raw, tree), tree);
     if (const std::string found = data.open(); !found.empty())
-        tree.refuse_at(array, "the data of " + what, {}, found, "write the file again");
+        tree.refuse_at("file.syntax", array, "the data of " + what, {}, found, "write the file again");
     if (count && data.size() != *size)
-        tree.refuse_at(array, "the size of " + what, std::to_string(*size) + " bytes", std::to_string(data.size()),
-                       other_count);
+        tree.refuse_at("file.count", array, "the size of " + what, std::to_string(*size) + " bytes",
+                       std::to_string(data.size()), other_count);
     const auto numbers = static_cast<std::size_t>(count.value_or(data.size() / number_bytes(type)));
     return std::visit([&](auto to) { return data.read(type, numbers, to.get()); }, values);
 }
@@ -305,7 +305,7 @@ void XmlTree::take_layout() {
         const std::string_view value = root().attribute_or(key, values.front());
         const auto found = std::ranges::find(values, value);
         if (found != values.end()) return static_cast<std::size_t>(found - values.begin());
-        refuse_at(root(), std::string("the attribute ") + key + " of the file",
+        refuse_at("file.unsupported", root(), std::string("the attribute ") + key + " of the file",
                   base::joined(values, ", ", std::identity()), in_quotes(value));
     };
     swap_bytes = (choose("byte_order", orders) == 0) != (std::endian::native == std::endian::little);
@@ -324,7 +324,7 @@ void XmlTree::take_numbers(const XmlElement& array, const std::string& what, std
                            NumberFault* inexact) const {
     const std::optional<NumberType> type = array.number_type();
     if (!type)
-        refuse_at(array, "the type of " + what, "Int8 to UInt64, Float32, Float64 or Bit",
+        refuse_at("file.unsupported", array, "the type of " + what, "Int8 to UInt64, Float32, Float64 or Bit",
                   in_quotes(array.attribute_or("type", "")));
     check(read_any(*this, array, what, *type, count, values), bytes.data() + array.begin, what, count, inexact);
 }
@@ -339,7 +339,7 @@ std::vector<std::string> XmlTree::take_texts(const XmlElement& array, const std:
     std::string_view all(reinterpret_cast<const char*>(numbers.data()), numbers.size());
     const auto found = static_cast<std::uint64_t>(std::ranges::count(all, '\0'));
     if (found != count || !all.ends_with('\0'))
-        refuse_at(array, "the texts of " + what, std::to_string(count) + ", each ended by a zero byte",
+        refuse_at("file.count", array, "the texts of " + what, std::to_string(count) + ", each ended by a zero byte",
                   std::to_string(found) + " ends, and " + std::to_string(all.size()) + " bytes");
     std::vector<std::string> texts;
     for (; !all.empty(); all.remove_prefix(texts.back().size() + 1)) texts.emplace_back(all.data());

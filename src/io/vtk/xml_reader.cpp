@@ -45,7 +45,7 @@ public:
             if (element.name != "Piece") continue;
             // Grids have one piece, or the points on the borders of pieces would be there twice.
             if (structured && ++pieces > 1)
-                refuse_at(element, "a grid in several pieces", "one piece", "more",
+                refuse_at("file.unsupported", element, "a grid in several pieces", "one piece", "more",
                           "write it again in one piece, as ParaView's Merge Blocks or VTK's writer do");
             RawGrid piece;
             structured ? read_structured(*data, element, type, piece)
@@ -72,7 +72,7 @@ private:
         const std::string found = root().name != "VTKFile" ? "an element " + in_quotes(root().name)
                                   : data == nullptr        ? "no element of its type " + in_quotes(type)
                                                            : "type " + in_quotes(type);
-        refuse_at(root(), "the kind of the file",
+        refuse_at("file.unsupported", root(), "the kind of the file",
                   "a VTKFile of type UnstructuredGrid, PolyData, ImageData, RectilinearGrid or StructuredGrid", found,
                   has_word("PImageData PRectilinearGrid PStructuredGrid", type)
                       ? "the grid is in pieces: make one of them with " + one_grid_command(path)
@@ -83,7 +83,7 @@ private:
         const std::optional<std::string_view> text = piece.attribute(key);
         const std::optional<std::uint64_t> count = parse_count(text.value_or(""));
         if (!count || *count > max_entities - before)
-            refuse_at(piece, "the attribute " + std::string(key),
+            refuse_at("file.count", piece, "the attribute " + std::string(key),
                       "a count, at most " + std::to_string(max_entities) + " in all pieces",
                       text ? in_quotes(*text) : "none");
         return static_cast<std::size_t>(*count);
@@ -92,9 +92,10 @@ private:
     void read_points(const XmlElement& piece, std::size_t count, RawGrid& grid) const {
         if (count == 0) return;
         const XmlElement* const array = child(child(&piece, "Points"), "DataArray");
-        if (array == nullptr) refuse_at(piece, "the points of a piece", "an array in Points", "none");
+        if (array == nullptr) refuse_at("mesh.empty", piece, "the points of a piece", "an array in Points", "none");
         const std::string_view components = array->attribute_or("NumberOfComponents", "1");
-        if (parse_count(components) != 3) refuse_at(*array, "the components of the points", "3", in_quotes(components));
+        if (parse_count(components) != 3)
+            refuse_at("file.count", *array, "the components of the points", "3", in_quotes(components));
         grid.narrow_points = array->number_type() == NumberType::float32;
         take_numbers(*array, "the coordinates", std::uint64_t{3} * count, grid.points);
     }
@@ -106,7 +107,7 @@ private:
                                text = piece.attribute_or("Extent", "");
         const auto whole = parse_all<std::int64_t, 6>(whole_text), extent = parse_all<std::int64_t, 6>(text);
         if (!extent || whole != extent)
-            refuse_at(piece, "the extent of the piece", "that of the whole, six integers",
+            refuse_at("file.count", piece, "the extent of the piece", "that of the whole, six integers",
                       in_quotes(text) + " of " + in_quotes(whole_text));
         StructuredGrid structured;
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -114,7 +115,7 @@ private:
             structured.counts[axis] = count > 0 ? static_cast<std::size_t>(count) : 0;
         }
         if (const std::string fault = structured.fault(part_, type != "StructuredGrid"); !fault.empty())
-            refuse_at(piece, "the points of the grid", fault, "the extent " + in_quotes(text));
+            refuse_at("file.count", piece, "the points of the grid", fault, "the extent " + in_quotes(text));
         if (type == "StructuredGrid") {
             read_points(piece, structured.point_count(), grid);
         } else if (structured.point_count() != 0) {
@@ -134,10 +135,10 @@ private:
                                direction = data.attribute_or("Direction", plain);
         const auto origin = parse_all<double, 3>(origin_text), spacing = parse_all<double, 3>(spacing_text);
         if (!origin || !spacing)
-            refuse_at(data, "the origin and spacing of the grid", "three finite numbers each",
+            refuse_at("mesh.coordinate", data, "the origin and spacing of the grid", "three finite numbers each",
                       in_quotes(origin_text) + " and " + in_quotes(spacing_text));
         if (parse_all<double, 9>(direction) != parse_all<double, 9>(plain))
-            refuse_at(data, "the direction of the grid", std::string(plain), in_quotes(direction),
+            refuse_at("file.unsupported", data, "the direction of the grid", std::string(plain), in_quotes(direction),
                       "write its points as a structured or unstructured grid");
         Axes axes;
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -158,7 +159,9 @@ private:
             narrow = narrow || array.number_type() == NumberType::float32;
             ++found;
         }
-        if (found != 3) refuse_at(piece, "the points of a piece", "three arrays in Coordinates", std::to_string(found));
+        if (found != 3)
+            refuse_at("file.count", piece, "the points of a piece", "three arrays in Coordinates",
+                      std::to_string(found));
         return axes;
     }
 
@@ -196,7 +199,7 @@ private:
         const XmlElement* const offsets = child(element, "offsets", "Name");
         const XmlElement* const types = child(element, "types", "Name");
         if (connectivity == nullptr || offsets == nullptr || (types == nullptr && !section))
-            refuse_at(piece, "the cells of a piece",
+            refuse_at("file.syntax", piece, "the cells of a piece",
                       section ? "arrays connectivity and offsets" : "arrays connectivity, offsets and types",
                       section ? "not both" : "not all three");
         if (!section) take_numbers(*types, "the types of cells", count, grid.types);
@@ -205,21 +208,21 @@ private:
         std::int64_t end = 0;
         for (const std::int64_t own : cells.ends) {
             if (own < end)
-                refuse_at(*offsets, "the offsets of cells", "none below the one before it",
+                refuse_at("file.count", *offsets, "the offsets of cells", "none below the one before it",
                           std::to_string(own) + " after " + std::to_string(end));
             end = own;
         }
         take_numbers(*connectivity, "the connectivity", static_cast<std::uint64_t>(end), cells.connectivity);
         const std::size_t wrong = first_wrong_node(cells.connectivity, grid.point_count());
         if (wrong != cells.connectivity.size())
-            refuse_at(*connectivity, "a node of a cell", "a point below " + std::to_string(grid.point_count()),
-                      std::to_string(cells.connectivity[wrong]));
+            refuse_at("mesh.node-index", *connectivity, "a node of a cell",
+                      "a point below " + std::to_string(grid.point_count()), std::to_string(cells.connectivity[wrong]));
         if (!section && std::ranges::count(grid.types, vtk_polyhedron) != 0) read_faces(piece, *element, grid);
         grid.append(std::move(cells), section);
     }
 
     [[noreturn]] void refuse_faces(const XmlElement& element, std::size_t cell, std::size_t points) const {
-        refuse_at(element, "the faces of cell " + std::to_string(cell) + " (from 0) of the piece",
+        refuse_at("mesh.faces", element, "the faces of cell " + std::to_string(cell) + " (from 0) of the piece",
                   "nodes of faces below " + std::to_string(points), "others");
     }
 
@@ -246,7 +249,8 @@ private:
                                             std::size_t count) const {
         std::vector<std::int64_t> numbers;
         const XmlElement* const array = child(&element, name, "Name");
-        if (array == nullptr) refuse_at(piece, "the faces of polyhedra", std::string("an array ") + name, "none");
+        if (array == nullptr)
+            refuse_at("mesh.faces", piece, "the faces of polyhedra", std::string("an array ") + name, "none");
         take_numbers(*array, name, count, numbers);
         return numbers;
     }
@@ -254,7 +258,7 @@ private:
     /// Since then faces are numbered, and the two cells at a face name it.
     void read_numbered_faces(const XmlElement& piece, const XmlElement& element, RawGrid& grid) const {
         const auto refuse = [&](const char* expected) {
-            refuse_at(element, "the faces of polyhedra", expected, "others");
+            refuse_at("mesh.faces", element, "the faces of polyhedra", expected, "others");
         };
         const auto size_of = [&](const std::vector<std::int64_t>& ends) {
             if (!std::ranges::is_sorted(ends) || (!ends.empty() && ends.front() < 0))
@@ -305,8 +309,8 @@ private:
             RawArray& to = arrays.emplace_back();
             to.name = array.attribute_or("Name", "");
             if (!seen.insert(to.name).second)
-                refuse_at(array, "two arrays in one " + data.name, "different names", in_quotes(to.name) + " twice",
-                          "give them different names");
+                refuse_at("file.duplicate", array, "two arrays in one " + data.name, "different names",
+                          in_quotes(to.name) + " twice", "give them different names");
             read_array(array, data.name == "PointData", count, to);
         }
     }
@@ -316,7 +320,7 @@ private:
         const std::string_view text = array.attribute_or("NumberOfComponents", "1");
         const std::uint64_t components = parse_count(text).value_or(0);
         if (components == 0 || components > max_entities)
-            refuse_at(array, "the components of " + what, "a count of 1 or more", in_quotes(text));
+            refuse_at("file.count", array, "the components of " + what, "a count of 1 or more", in_quotes(text));
         to.components = static_cast<int>(components);
         const std::optional<NumberType> type = array.number_type();
         const bool may_label = !of_points || part_ == Wanted::point_arrays;
@@ -330,8 +334,8 @@ private:
         } else if (array.attribute("type") == "String") {
             if (takes_texts(to, may_label)) to.values = take_texts(array, what, count);
         } else if (array.name == "DataArray") {
-            refuse_at(array, "the attribute type of " + what, "Int8 to UInt64, Float32, Float64, Bit or String",
-                      in_quotes(array.attribute_or("type", "")));
+            refuse_at("file.unsupported", array, "the attribute type of " + what,
+                      "Int8 to UInt64, Float32, Float64, Bit or String", in_quotes(array.attribute_or("type", "")));
         } else {
             to.fault = "it holds no numbers";
         }

@@ -149,10 +149,10 @@ XmlTree parse_xml(std::string_view bytes, const std::string& path) {
     if (parser.out_of_memory || parser.fault() == XML_ERROR_NO_MEMORY) throw std::bad_alloc();
     const char* const place = bytes.data() + parser.place();
     if (parser.has_doctype)
-        tree.refuse(place, "a document type in an XML file of VTK",
+        tree.refuse("file.unsupported", place, "a document type in an XML file of VTK",
                     "none: entities that it defines could grow without bound", "<!DOCTYPE", "remove it");
     if (!whole && !parser.at_appended_data)
-        tree.refuse(place, "not a well-formed XML file", "", XML_ErrorString(parser.fault()), cut_off);
+        tree.refuse("file.syntax", place, "not a well-formed XML file", "", XML_ErrorString(parser.fault()), cut_off);
     tree.elements = std::move(parser.elements);
     if (!parser.at_appended_data) return tree;
     const XmlElement& element = tree.elements.back();
@@ -162,7 +162,8 @@ XmlTree parse_xml(std::string_view bytes, const std::string& path) {
     const std::optional<std::string_view> encoding = element.attribute("encoding");
     tree.appended_raw = encoding == "raw";
     if (encoding && encoding != "raw" && encoding != "base64")
-        tree.refuse_at(element, "the encoding of the appended data", "raw or base64", std::string(*encoding));
+        tree.refuse_at("file.unsupported", element, "the encoding of the appended data", "raw or base64",
+                       std::string(*encoding));
     return tree;
 }
 

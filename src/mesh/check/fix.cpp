@@ -45,7 +45,8 @@ public:
 
     Result<Mesh> run() {
         if (options_.nodes && !merge_nodes())
-            return Error{.what = "so large a distance would merge nodes throughout the mesh",
+            return Error{.code = "option.value",
+                         .what = "so large a distance would merge nodes throughout the mesh",
                          .found = base::shortest(options_.merge_within),
                          .remedy = "take one that is small beside the edges of the cells"};
         cut_again();
@@ -309,9 +310,10 @@ Result<Mesh> fix_mesh(const Mesh& mesh, const FixOptions& options, FixReport& re
     const ExactEnvironment environment;
     report = {};
     if (const char* fault = mesh::inconsistency(mesh, mesh::FieldValues::any); fault != nullptr)
-        return Error{.what = "this mesh cannot be fixed", .found = fault};
+        return Error{.code = "mesh.inconsistent", .what = "this mesh cannot be fixed", .found = fault};
     if (!(options.merge_within >= 0) || !std::isfinite(options.merge_within))
-        return Error{.what = "the distance within which nodes are merged is not one",
+        return Error{.code = "option.value",
+                     .what = "the distance within which nodes are merged is not one",
                      .expected = "a finite number from 0 on",
                      .found = base::shortest(options.merge_within)};
     return base::in_arena(options.threads, mesh.cells.size(), [&] { return Fix(mesh, options, report).run(); });

@@ -24,13 +24,16 @@ inline std::optional<std::size_t> first_outside(std::span<const Mesh::Index> cel
 
 /// Returns the error that `what` needs listed cells (Mesh::axes).
 inline Error not_listed(const std::string& what) {
-    return {.what = what + " of a grid whose cells are not listed", .remedy = "read it with ReadOptions::list_grids"};
+    return {.code = "mesh.unlisted",
+            .what = what + " of a grid whose cells are not listed",
+            .remedy = "read it with ReadOptions::list_grids"};
 }
 
 /// There are d coordinates a point.
 inline Status check_size(std::span<const double> points, std::size_t d) {
     if (points.size() % d == 0) return Done{};
-    return Error{.what = "size of the points",
+    return Error{.code = "argument.size",
+                 .what = "size of the points",
                  .expected = std::to_string(d) + " coordinates a point",
                  .found = std::to_string(points.size()) + " numbers"};
 }
@@ -41,8 +44,10 @@ inline Status check_cells(std::span<const Mesh::Index> cells, std::size_t count)
         return cell < -1 || (cell >= 0 && static_cast<std::size_t>(cell) >= count);
     });
     if (wrong == cells.end()) return Done{};
-    return Error{
-        .what = "index of a cell", .expected = "-1 or below " + std::to_string(count), .found = std::to_string(*wrong)};
+    return Error{.code = "argument.value",
+                 .what = "index of a cell",
+                 .expected = "-1 or below " + std::to_string(count),
+                 .found = std::to_string(*wrong)};
 }
 
 /// An Error naming the first point with a coordinate that is not finite, if there is one. `first`: its number counts

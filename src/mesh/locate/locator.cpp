@@ -10,7 +10,8 @@ Result<Locator> Locator::build(const Mesh& mesh, const BuildOptions& options) {
     const ExactEnvironment environment;
     const char* const wrong = mesh.is_listed() ? mesh::inconsistency_of_cells(mesh, mesh::FieldValues::any)
                                                : mesh::inconsistency_of_axes(mesh);
-    if (wrong != nullptr) return Error{.what = std::string("the mesh is inconsistent: ") + wrong};
+    if (wrong != nullptr)
+        return Error{.code = "mesh.inconsistent", .what = std::string("the mesh is inconsistent: ") + wrong};
     std::unique_ptr<locate::LocatorData> data;
     base::in_arena(options.threads, mesh.cell_count(), [&] {
         const auto stage = [&](const char* name) {
@@ -128,7 +129,8 @@ Status Locator::locate(std::span<const double> points, std::span<Mesh::Index> ce
     if (Status status = locate::check_size(points, data_->index.dimension()); !status) return status;
     const std::size_t count = points.size() / data_->index.dimension();
     if (cells.size() != count || features.size() != count)
-        return Error{.what = "size of the output",
+        return Error{.code = "argument.size",
+                     .what = "size of the output",
                      .expected = "one cell and one feature for each of " + std::to_string(count) + " points",
                      .found = std::to_string(cells.size()) + " and " + std::to_string(features.size())};
     LocationCounts all;

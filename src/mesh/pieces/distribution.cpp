@@ -211,8 +211,9 @@ Status agree_on_arrays(Exchange& exchange, bool has_cells, std::vector<ArrayKind
     return exchange.everywhere([&]() -> Status {
         auto theirs = exchange.size() == 1 ? kinds : nlohmann::json::from_cbor(bytes).get<std::vector<ArrayKind>>();
         if (std::string differs = has_cells ? difference(kinds, theirs) : std::string(); !differs.empty())
-            return Error{.what =
-                             "the source has other arrays than that of rank " + std::to_string(from) + ": " + differs};
+            return Error{
+                .code = "rank.source",
+                .what = "the source has other arrays than that of rank " + std::to_string(from) + ": " + differs};
         kinds = std::move(theirs);
         return Done{};
     });

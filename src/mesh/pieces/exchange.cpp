@@ -11,15 +11,20 @@ Status Exchange::agree(const Status& mine) {
     least({&lowest, 1});
     const int first = static_cast<int>(lowest);
     if (first == size()) return Done{};
-    // No memory may be left: the text has a place of its own.
-    std::array<char, 1024> text{};
+    // No memory may be left: code and text have a place of their own.
+    struct {
+        std::array<char, 64> code{};
+        std::array<char, 1024> text{};
+    } told;
     if (rank() == first) {
+        mine.error().code.name().copy(told.code.data(), told.code.size() - 1);
         const std::string message = mine.error().message();
-        message.copy(text.data(), text.size() - 1);
+        message.copy(told.text.data(), told.text.size() - 1);
     }
-    ranks_.broadcast(std::as_writable_bytes(std::span(text)), first);
-    gathered_ += text.size();
-    return Error{.what = "rank " + std::to_string(first) + ": " + text.data()};
+    ranks_.broadcast(std::as_writable_bytes(std::span(&told, 1)), first);
+    gathered_ += sizeof told;
+    return Error{.code = ErrorCode::named(told.code.data()).value_or("rank.lost"),
+                 .what = "rank " + std::to_string(first) + ": " + told.text.data()};
 }
 
 void Exchange::least(std::span<double> values) {
@@ -68,7 +73,7 @@ Status Exchange::swap_bytes(std::span<const std::byte> out, std::span<const std:
         in_chunks(in, in_begin, k, [&](auto some) { return ranks_.receive(some, other); });
         if (rank() > other) give();
     }
-    if (!went_well) return Error{.what = "a message to or from another rank was lost"};
+    if (!went_well) return Error{.code = "rank.lost", .what = "a message to or from another rank was lost"};
     return Done{};
 }
 

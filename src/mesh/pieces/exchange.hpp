@@ -43,9 +43,9 @@ Status attempt(Work&& work) {
             return work();
         }
     } catch (const std::bad_alloc&) {
-        return Error{.what = "out of memory"};
+        return Error{.code = "memory.short", .what = "out of memory"};
     } catch (const std::exception& e) {
-        return Error{.what = e.what()};
+        return Error{.code = "internal.error", .what = e.what()};
     }
 }
 

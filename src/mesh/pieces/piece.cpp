@@ -189,7 +189,7 @@ Result<Shape> agree_on_shape(Exchange& exchange, const PieceFacts& mine) {
     }
     exchange.least(facts);
     const int highest = -static_cast<int>(facts[0]);
-    if (highest == 0 || highest == 1) return Error{.what = only_lower};
+    if (highest == 0 || highest == 1) return Error{.code = "rank.source", .what = only_lower};
     Shape shape{.dimension = std::max(highest, 0), .by_numbers = true};
     if (highest < 0) return shape;
     const double* const its = &facts[static_cast<std::size_t>(4 * highest - 1)];
@@ -200,7 +200,8 @@ Result<Shape> agree_on_shape(Exchange& exchange, const PieceFacts& mine) {
     if (highest != 2 || ghosts_alone) return shape;
     for (std::size_t a = 0; a < 3; ++a)
         if (facts[1 + a] == -facts[4 + a]) shape.normal = static_cast<int>(a);
-    if (shape.normal < 0) return Error{.what = "its polygons do not lie in one plane across an axis"};
+    if (shape.normal < 0)
+        return Error{.code = "rank.source", .what = "its polygons do not lie in one plane across an axis"};
     return shape;
 }
 

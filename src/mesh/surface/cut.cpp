@@ -266,10 +266,13 @@ Result<Cut> cut_field(int dimension, const Mesh& mesh, const Field& field, doubl
                       int component) {
     if (Status fits = mesh::check_field(&field, mesh.point_count(), "node"); !fits) return fits.error();
     if (component < 0 || component >= field.components)
-        return file_error({}, "no such component of field \"" + field.name + '"',
+        return file_error("field.component", {}, "no such component of field \"" + field.name + '"',
                           "0 to " + std::to_string(field.components - 1), std::to_string(component));
     if (!std::isfinite(value))
-        return Error{.what = "the value to cut at", .expected = "a finite number", .found = base::shortest(value)};
+        return Error{.code = "argument.not-finite",
+                     .what = "the value to cut at",
+                     .expected = "a finite number",
+                     .found = base::shortest(value)};
     return on_good_input(mesh, dimension, options,
                          [&] { return cut_at(mesh, FieldLevel(field, component, value), options); });
 }
@@ -278,7 +281,7 @@ Result<Cut> cut_plane(const Mesh& mesh, const Plane& plane, const CutOptions& op
     const ExactEnvironment environment;
     const auto& n = plane.normal;
     if (!std::isfinite(plane.offset) || !base::all_finite(n) || (n[0] == 0 && n[1] == 0 && n[2] == 0))
-        return file_error({}, "the plane", "four finite numbers, the normal not zero",
+        return file_error("argument.value", {}, "the plane", "four finite numbers, the normal not zero",
                           base::joined(std::array{n[0], n[1], n[2], plane.offset}, ", ", base::shortest));
     return on_good_input(mesh, 3, options, [&] { return cut_at(mesh, PlaneLevel(mesh, plane), options, ends); });
 }

@@ -10,7 +10,10 @@ namespace barycert::surface {
 namespace {
 
 Error bad_mesh(std::string found) {
-    return {.what = "the mesh is inconsistent", .found = std::move(found), .remedy = "correct the mesh in memory"};
+    return {.code = "mesh.inconsistent",
+            .what = "the mesh is inconsistent",
+            .found = std::move(found),
+            .remedy = "correct the mesh in memory"};
 }
 
 }  // namespace
@@ -23,7 +26,8 @@ Status check_input(const Mesh& mesh, int dimension, const CutOptions& options) {
     if (mesh.dimension != 2 && mesh.dimension != 3) return bad_mesh("a dimension that is neither 2 nor 3");
     if (!mesh.is_listed()) return bad_mesh(mesh::not_listed);
     if (dimension != 0 && mesh.dimension != dimension)
-        return file_error({}, "a mesh of another dimension", dimension == 3 ? "tetrahedra" : "triangles in the plane",
+        return file_error("mesh.dimension", {}, "a mesh of another dimension",
+                          dimension == 3 ? "tetrahedra" : "triangles in the plane",
                           dimension == 3 ? "triangles in the plane" : "tetrahedra");
     if (mesh.points.size() % static_cast<std::size_t>(mesh.dimension) != 0 || mesh.cells.size() % mesh.corners() != 0)
         return bad_mesh("nodes or cells that are not whole");

@@ -153,7 +153,7 @@ public:
         gather_ends();
         const std::size_t points = first_.back();
         if (std::max(points, part_count_) > INT32_MAX)
-            return file_error({}, "the surface is too large", "at most 2147483647 points and cells",
+            return file_error("mesh.too-large", {}, "the surface is too large", "at most 2147483647 points and cells",
                               std::to_string(std::max(points, part_count_)), "cut a part of the mesh");
         write_edges(points, surface, counts);
         write_parts(surface, counts);

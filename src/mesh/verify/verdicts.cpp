@@ -194,7 +194,8 @@ private:
 };
 
 Status wrong_size(const char* what, std::size_t expected, std::size_t found) {
-    return file_error({}, std::string("size of ") + what, std::to_string(expected), std::to_string(found));
+    return file_error("argument.size", {}, std::string("size of ") + what, std::to_string(expected),
+                      std::to_string(found));
 }
 
 Status check_claims(const Sampler& sampler, const ClaimedRows& rows, NonfinitePoints nonfinite) {

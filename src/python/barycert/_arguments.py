@@ -18,15 +18,14 @@ def real(array: Any, what: str) -> np.ndarray:
     """An array of real numbers, as it is; Error if it is of another kind."""
     if isinstance(array, np.ma.MaskedArray) and np.ma.is_masked(array):
         finite = what.startswith(("points", "coordinates", "vertices"))
-        _core.fail(
-            f"masked entries of the {what}",
+        _core.fail("argument.not-finite", f"masked entries of the {what}",
             remedy="leave them out" if finite else "say what they are: .astype(float).filled(numpy.nan)",
         )
     array = np.asarray(array)
     if array.dtype.kind not in "fiub":
-        _core.fail(f"type of the {what}", expected="real numbers", found=str(array.dtype))
+        _core.fail("argument.type", f"type of the {what}", expected="real numbers", found=str(array.dtype))
     if array.dtype.itemsize > 8:
-        _core.fail(f"type of the {what}", expected="numbers that float64 can hold", found=str(array.dtype),
+        _core.fail("argument.type", f"type of the {what}", expected="numbers that float64 can hold", found=str(array.dtype),
                    remedy="round them yourself: .astype(float)")  # fmt: skip
     return array
 
@@ -36,7 +35,7 @@ def exact_doubles(array: Any, what: str, nonfinite_points: Optional[str] = None)
     if nonfinite_points is not None and isinstance(array, np.ma.MaskedArray) and np.ma.is_masked(array):
         if nonfinite_points == "nan":
             return np.where(np.ma.getmaskarray(array), np.nan, exact_doubles(array.filled(0), what))
-        _core.fail(f"masked entries of the {what}", remedy='nonfinite_points="nan" takes NaN for their values')
+        _core.fail("argument.not-finite", f"masked entries of the {what}", remedy='nonfinite_points="nan" takes NaN for their values')
     array = real(array, what)
     doubles = array.astype(np.float64, order="C", copy=False)
     if array.dtype.kind in "iu" and array.dtype.itemsize == 8 and array.size:
@@ -44,7 +43,7 @@ def exact_doubles(array: Any, what: str, nonfinite_points: Optional[str] = None)
         inside = doubles < (2.0**63 if array.dtype.kind == "i" else 2.0**64)
         back = np.where(inside, doubles, 0).astype(array.dtype)
         if not (inside & (back == array)).all():
-            _core.fail(f"an integer of the {what}", expected="a number that a double represents",
+            _core.fail("argument.value", f"an integer of the {what}", expected="a number that a double represents",
                        found=str(array[~(inside & (back == array))][0]))  # fmt: skip
     return doubles
 
@@ -60,7 +59,7 @@ def points_of(points: Any, dimension: int, nonfinite_points: Optional[str] = Non
         points = points_of_dataset(points, dimension)
     array = exact_doubles(points, "points", nonfinite_points)
     if array.ndim == 0 or (array.ndim == 1 and array.size != dimension) or array.shape[-1] != dimension:
-        _core.fail("shape of the points", expected=f"(..., {dimension}): {dimension} coordinates each",
+        _core.fail("argument.size", "shape of the points", expected=f"(..., {dimension}): {dimension} coordinates each",
                    found=str(array.shape))  # fmt: skip
     return array.reshape(-1, dimension), array.shape[:-1]
 
@@ -69,11 +68,11 @@ def values_of(values: Any, count: int, what: str) -> Tuple[np.ndarray, Shape]:
     """Real values as doubles (count, components), and the shape of one value."""
     array = exact_doubles(values, what)
     if array.ndim == 0 or array.shape[0] != count:
-        _core.fail(f"shape of the {what}", expected=f"({count}, ...): one value each", found=str(array.shape))
+        _core.fail("argument.size", f"shape of the {what}", expected=f"({count}, ...): one value each", found=str(array.shape))
     shape = array.shape[1:]
     components = int(np.prod(shape, dtype=np.int64))
     if components == 0:
-        _core.fail(f"shape of the {what}", expected="at least one component", found=str(array.shape))
+        _core.fail("argument.size", f"shape of the {what}", expected="at least one component", found=str(array.shape))
     return array.reshape(count, components), shape
 
 
@@ -81,7 +80,7 @@ def count_of(number: Any, what: str) -> int:
     """An integer that is not negative; TypeError if it is none, as of range()."""
     count = operator.index(number)
     if count < 0:
-        _core.fail(what, expected="0 or more", found=str(count))
+        _core.fail("argument.value", what, expected="0 or more", found=str(count))
     return count
 
 
@@ -96,7 +95,7 @@ def telling(progress: Progress) -> Optional[Callable[[str, int, int], Any]]:
     call that tells alone: tqdm closes a bar that nobody holds any more."""
     if not isinstance(progress, bool):
         if progress is not None and not callable(progress):
-            _core.fail("progress=", expected="None, True or a callable of (stage, done, total)", found=repr(progress))
+            _core.fail("argument.type", "progress=", expected="None, True or a callable of (stage, done, total)", found=repr(progress))
         return progress
     bars: Dict[str, Any] = {}  # of the last stage
 

@@ -135,7 +135,7 @@ def audit(
 
 def _need_audit() -> None:
     if not _core.has_audit:
-        _core.fail("this build of barycert has no audit", remedy="build it with -DBARYCERT_AUDIT=ON")
+        _core.fail("tool.missing", "this build of barycert has no audit", remedy="build it with -DBARYCERT_AUDIT=ON")
 
 
 def kernels() -> List[Dict[str, Any]]:

@@ -36,6 +36,7 @@ class Defect:
         kind: its name, such as "overlapping_cells".
         count: how many; `at_least` if the search stopped there.
         breaks: whether it breaks the certificate; `condition`: which one ("P1" to "P5"), or "".
+        severity: "error" if it does, "warning" if there is something to do about it, else "note".
         text: what it is. remedy: what to do about it, or "".
         places: the first of them.
     """
@@ -44,6 +45,7 @@ class Defect:
     count: int
     at_least: bool
     breaks: bool
+    severity: str
     condition: str
     text: str
     remedy: str

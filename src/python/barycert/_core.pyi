@@ -6,12 +6,14 @@ version: str
 has_audit: bool
 
 class Error(ValueError):
+    code: str
     what: str
     file: str
     line: int
     expected: str
     found: str
     remedy: str
+    subject: str
 
-def fail(what: str, expected: str = ..., found: str = ..., remedy: str = ...) -> NoReturn: ...
+def fail(code: str, what: str, expected: str = ..., found: str = ..., remedy: str = ...) -> NoReturn: ...
 def __getattr__(name: str) -> Any: ...

@@ -46,7 +46,7 @@ def parts_of(source: Any, in_space: bool = False) -> Parts:
     elif hasattr(source, "cells") and hasattr(source, "points"):  # meshio.Mesh
         parts = _of_meshio(source)
     else:
-        _core.fail("what a mesh is made of",
+        _core.fail("argument.type", "what a mesh is made of",
                    expected="points and cells, or a mesh of SciPy, matplotlib, meshio, pyvista or VTK",
                    found=type(source).__name__)  # fmt: skip
     if parts.cells.shape[1] in (3, 6) and not in_space:
@@ -65,7 +65,7 @@ def _in_plane(points: np.ndarray, what: str) -> np.ndarray:
         return points
     off = np.flatnonzero(points[:, 2])
     if off.size:
-        _core.fail(what, expected="z = 0 throughout", found=f"z = {points[off[0], 2]} at point {off[0]}")
+        _core.fail("mesh.off-plane", what, expected="z = 0 throughout", found=f"z = {points[off[0], 2]} at point {off[0]}")
     return points[:, :2]
 
 
@@ -89,7 +89,7 @@ def _of_blocks(points: Any, blocks: List[Block], ghosts: int, point_data: Any, c
     count = {dimension: 0 for dimension in (1, 2, 3)}  # 1: of all that are left out
     for kind, _, numbers in blocks:
         if len(numbers) and kind not in _COLUMNS and kind not in _LOWER:
-            _core.fail("cells of another kind", expected="triangles or tetrahedra",
+            _core.fail("mesh.cell-type", "cells of another kind", expected="triangles or tetrahedra",
                        found=f"{len(numbers)} cells of type {kind}, the first is cell {numbers[0]}",
                        remedy="vtkDataSetTriangleFilter, or pyvista's triangulate(), makes tetrahedra of them")  # fmt: skip
         count[_DIMENSION.get(kind, 1)] += len(numbers)
@@ -98,9 +98,9 @@ def _of_blocks(points: Any, blocks: List[Block], ghosts: int, point_data: Any, c
     left_out = {"ghost cells": ghosts, "vertices and lines": count[1], "triangles beside tetrahedra": count[2] if solid else 0}
     others = [f"{number} {what}" for what, number in left_out.items() if number]
     if len({kind for kind, _, _ in chosen}) > 1:
-        _core.fail("cells of first and second order in one mesh", remedy="make all of them linear, or all quadratic")
+        _core.fail("mesh.cell-type", "cells of first and second order in one mesh", remedy="make all of them linear, or all quadratic")
     if not chosen:
-        _core.fail("a mesh without triangles and tetrahedra", found=", ".join(others) or "no cells")
+        _core.fail("mesh.empty", "a mesh without triangles and tetrahedra", found=", ".join(others) or "no cells")
     nodes, numbers = (np.concatenate([block[i] for block in chosen]) for i in (1, 2))
     order = np.argsort(numbers, kind="stable")
     nodes, numbers = nodes[order], numbers[order]
@@ -139,7 +139,7 @@ def _arrays_of(attributes: Any, notes: List[str]) -> Dict[str, np.ndarray]:
 
 def _points_of_vtk(source: Any) -> np.ndarray:
     if source.GetPoints() is None:
-        _core.fail("a data set without points", found=type(source).__name__)
+        _core.fail("mesh.empty", "a data set without points", found=type(source).__name__)
     return _numpy(source.GetPoints().GetData())
 
 
@@ -152,10 +152,10 @@ def _of_vtk(source: Any) -> Parts:
         grid = source.GetPolys()
         others = sum(part().GetNumberOfCells() for part in (source.GetVerts, source.GetLines, source.GetStrips))
         if others:
-            _core.fail("polygon data with other cells than polygons", found=str(others), remedy="vtkTriangleFilter takes them out")
+            _core.fail("mesh.cell-type", "polygon data with other cells than polygons", found=str(others), remedy="vtkTriangleFilter takes them out")
         types = np.full(grid.GetNumberOfCells(), _TRIANGLE)
     else:
-        _core.fail("a data set of VTK", expected="vtkUnstructuredGrid or vtkPolyData", found=type(source).__name__,
+        _core.fail("argument.type", "a data set of VTK", expected="vtkUnstructuredGrid or vtkPolyData", found=type(source).__name__,
                    remedy="vtkDataSetTriangleFilter makes an unstructured grid of it")
     notes: List[str] = []
     point_data, cell_data = (_arrays_of(data, notes) for data in (source.GetPointData(), source.GetCellData()))
@@ -169,7 +169,7 @@ def _of_vtk(source: Any) -> Parts:
         columns, sizes = _COLUMNS.get(kind, 0), offsets[numbers + 1] - offsets[numbers]
         wrong = np.flatnonzero(sizes != columns) if columns else numbers[:0]
         if len(wrong):
-            _core.fail(f"nodes of cell {numbers[wrong[0]]}", expected=str(columns), found=str(sizes[wrong[0]]))
+            _core.fail("mesh.node-count", f"nodes of cell {numbers[wrong[0]]}", expected=str(columns), found=str(sizes[wrong[0]]))
         blocks.append((kind, connectivity[offsets[numbers][:, None] + np.arange(columns)], numbers))
     parts = _of_blocks(points, blocks, np.count_nonzero(ghost), point_data, cell_data)
     parts.notes = notes + parts.notes

@@ -51,7 +51,7 @@ class Interpolator:
             # Interpolator(points or mesh, values), as SciPy has it.
             cells, values = None, cells
         if values is None:
-            _core.fail("Interpolator without values", expected="Interpolator(points, cells, values)")
+            _core.fail("option.missing", "Interpolator without values", expected="Interpolator(points, cells, values)")
         self.mesh = _mesh_of(points, cells)
         self._values = values = np.asanyarray(values)
         self._complex = values.dtype.kind == "c"
@@ -64,7 +64,7 @@ class Interpolator:
         filled = ("nan", np.nan) if self._fill_after else (outside, np.real(fill_value))
         self._options = options_of(*filled, limit, rounding, threads, nonfinite_points)
         if not self._complex and np.iscomplexobj(fill_value):
-            _core.fail("fill_value", expected="a real number, as the values are", found=repr(fill_value))
+            _core.fail("argument.type", "fill_value", expected="a real number, as the values are", found=repr(fill_value))
         self._sampler = self.mesh._core.sampler_of(rows, telling(progress))
 
     points: np.ndarray = forwarded("mesh.points", "(n, d) the nodes.")
@@ -104,7 +104,7 @@ class Interpolator:
         if len(args) == 1 and isinstance(args[0], tuple):
             args = args[0]
         if len(args) not in (1, d):
-            _core.fail("number of coordinates", expected=f"points (..., {d}), or {d} arrays", found=str(len(args)))
+            _core.fail("argument.size", "number of coordinates", expected=f"points (..., {d}), or {d} arrays", found=str(len(args)))
         if len(args) == 1:
             points = exact_doubles(args[0], "points", nonfinite)
             if points.ndim == 1 and points.size % d == 0:
@@ -124,13 +124,13 @@ class Interpolator:
 def _mesh_of(points: Any, cells: Any) -> Mesh:
     if isinstance(points, Mesh):
         if cells is not None:
-            _core.fail("cells of a mesh that has cells", expected="Interpolator(mesh, values)")
+            _core.fail("option.conflict", "cells of a mesh that has cells", expected="Interpolator(mesh, values)")
         return points
     if cells is None and isinstance(points, (np.ndarray, list, tuple)):
         try:
             from scipy.spatial import Delaunay
         except ImportError:
-            _core.fail("no cells, and no SciPy to make a Delaunay triangulation", remedy="pass cells, or install SciPy")
+            _core.fail("tool.missing", "no cells, and no SciPy to make a Delaunay triangulation", remedy="pass cells, or install SciPy")
         cells = Delaunay(exact_doubles(points, "points"))
     return Mesh(points, cells)
 
@@ -138,7 +138,7 @@ def _mesh_of(points: Any, cells: Any) -> Mesh:
 def _parts(values: np.ndarray) -> np.ndarray:
     """Real and imaginary parts as a last axis."""
     if values.dtype.itemsize > 16:
-        _core.fail("type of the values", expected="complex64 or complex128", found=str(values.dtype))
+        _core.fail("argument.type", "type of the values", expected="complex64 or complex128", found=str(values.dtype))
     if np.ma.is_masked(values):
-        _core.fail("masked entries of the values", remedy="say what they are: .filled(numpy.nan)")
+        _core.fail("argument.not-finite", "masked entries of the values", remedy="say what they are: .filled(numpy.nan)")
     return np.stack([values.real, values.imag], axis=-1)

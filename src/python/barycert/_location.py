@@ -71,7 +71,7 @@ class Location:
         from scipy.sparse import csr_matrix
 
         if outside not in ("nan", "nearest", "extrapolate"):
-            _core.fail("what points outside get (outside=)", expected="nan, nearest or extrapolate", found=repr(outside))
+            _core.fail("option.value", "what points outside get (outside=)", expected="nan, nearest or extrapolate", found=repr(outside))
         begin, nodes, weights = _core.matrix(self.mesh._core, self._points, self._cell, outside, float(limit), telling(progress))
         return csr_matrix((weights, nodes, begin), shape=(len(self._cell), len(self.mesh.points)))
 

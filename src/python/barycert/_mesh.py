@@ -29,11 +29,11 @@ def _no_field(name: object, names: Iterable[str]) -> KeyError:
     return KeyError(f"no field {name!r}; {meant}")
 
 
-def _refuse(bad: np.ndarray, array: np.ndarray, name: str, why: str, **more: str) -> None:
+def _refuse(code: str, bad: np.ndarray, array: np.ndarray, name: str, why: str, **more: str) -> None:
     """Error that names the first entry that is bad, if there is one."""
     if bad.any():
         row, column = np.argwhere(bad)[0]
-        _core.fail(f"{name}[{row}, {column}] {why}", found=str(array[row, column]), **more)
+        _core.fail(code, f"{name}[{row}, {column}] {why}", found=str(array[row, column]), **more)
 
 
 class FieldData(MutableMapping):
@@ -59,7 +59,7 @@ class FieldData(MutableMapping):
 
     def __setitem__(self, name: str, values: Any) -> None:
         if not isinstance(name, str) or not name:
-            _core.fail("name of a field", expected="a text", found=repr(name))
+            _core.fail("argument.type", "name of a field", expected="a text", found=repr(name))
         rows, shape = values_of(values, self._count, f'values of field "{name}"')
         self._core.set_field(name, rows, self._of_cells)
         self._shapes[name] = shape
@@ -105,7 +105,7 @@ class AllFields(MutableMapping):
         fits = named or [place for place in places if shape[:1] == (place[0]._count,)]
         if len(fits) != 1:
             nodes, cells = (data._count for data in self._of.values())
-            _core.fail(f"nodes or cells for field {name!r}", expected=f"{nodes} rows for nodes, or {cells} for cells",
+            _core.fail("argument.size", f"nodes or cells for field {name!r}", expected=f"{nodes} rows for nodes, or {cells} for cells",
                        found=str(shape), remedy="put it into point_data or cell_data")
         return fits[0]
 
@@ -169,33 +169,33 @@ class Mesh(GivenBack):
             parts = parts_of(cells)
             if len(points) != len(parts.points):
                 # The points need not be those that were triangulated: they may have been scaled for that.
-                _core.fail("points and their triangulation", expected=f"{len(parts.points)} points", found=str(len(points)))
+                _core.fail("argument.size", "points and their triangulation", expected=f"{len(parts.points)} points", found=str(len(points)))
             parts.points = points
         parts.point_data.update(point_data or {})
         parts.cell_data.update(cell_data or {})
         coordinates, indices = parts.points, parts.cells = exact_doubles(parts.points, "points"), np.asarray(parts.cells)
         if coordinates.ndim != 2 or coordinates.shape[1] not in (2, 3):
-            _core.fail("shape of the points of a mesh", expected="(n, 2) or (n, 3)", found=str(coordinates.shape))
+            _core.fail("argument.size", "shape of the points of a mesh", expected="(n, 2) or (n, 3)", found=str(coordinates.shape))
         dimension = coordinates.shape[1]
         columns = (3, 6) if dimension == 2 else (4, 10)
         if indices.ndim != 2 or indices.shape[1] not in columns:
             in_space = dimension == 3 and indices.ndim == 2 and indices.shape[1] in (3, 6)
-            _core.fail("shape of the cells", found=str(indices.shape),
+            _core.fail("argument.size", "shape of the cells", found=str(indices.shape),
                        expected=f"(m, {columns[0]}), or (m, {columns[1]}) of second order, with {dimension} coordinates a point",
                        remedy="triangles in space are no mesh; in a plane z = 0 pass points[:, :2]" if in_space else "")  # fmt: skip
         if indices.dtype.kind not in "iu":
-            _core.fail("type of the cells", expected="integers", found=str(indices.dtype))
+            _core.fail("argument.type", "type of the cells", expected="integers", found=str(indices.dtype))
         self._make(parts)
         self._set_cells("", curved, interpolation)
 
     def _make(self, parts: Parts) -> Mesh:
         points, cells = parts.points, parts.cells
         if max(len(points), len(cells)) > 2**31 - 1:
-            _core.fail("a mesh has at most 2147483647 nodes and cells")
+            _core.fail("mesh.too-large", "a mesh has at most 2147483647 nodes and cells")
         nodes = f"0 to {len(points) - 1}" if len(points) else "no cells, as there are no nodes"
-        _refuse((cells < 0) | (cells >= len(points)), cells, "cells", "is no node", expected=nodes,
+        _refuse("mesh.node-index", (cells < 0) | (cells >= len(points)), cells, "cells", "is no node", expected=nodes,
                 remedy="indices count from 0: see where they were made")  # fmt: skip
-        _refuse(~np.isfinite(points), points, "points", "is not finite")
+        _refuse("mesh.coordinate", ~np.isfinite(points), points, "points", "is not finite")
         corners = points.shape[1] + 1
         indices = (cells[:, :corners], cells[:, corners:], () if parts.cell_numbers is None else parts.cell_numbers)
         self._set_core(_core.Mesh(points, *(np.ascontiguousarray(some, dtype=np.int32) for some in indices)), parts.notes)
@@ -394,16 +394,16 @@ class Mesh(GivenBack):
         """
         if points is not None:
             if not isinstance(field, str):
-                _core.fail("gradient at points", expected="the name of a field", found=type(field).__name__)
+                _core.fail("argument.type", "gradient at points", expected="the name of a field", found=type(field).__name__)
             values = self.sample(points, f"grad({field})", progress=progress)
             components = self.point_data[field].shape[1:] if field in self.point_data else ()
             return values.reshape(values.shape[:-1] + components + (self.dimension,))
         if self.mid_nodes is not None:
-            _core.fail("gradient in a cell of second order", expected="points, as it is not the same everywhere in it",
+            _core.fail("field.location", "gradient in a cell of second order", expected="points, as it is not the same everywhere in it",
                        remedy="pass points")  # fmt: skip
         if isinstance(field, str):
             if field not in self.point_data:
-                _core.fail("no such field of nodes", found=repr(field), expected=", ".join(self.point_data) or "none")
+                _core.fail("field.unknown", "no such field of nodes", found=repr(field), expected=", ".join(self.point_data) or "none")
             field = self.point_data[field]
         values, shape = values_of(field, len(self.points), "values")
         gradients = self._core.gradients(values, telling(progress))
@@ -510,7 +510,7 @@ class Mesh(GivenBack):
         counts = [int(shape)] * d if np.ndim(shape) == 0 else [int(n) for n in shape]  # type: ignore
         box = self.bounds if bounds is None else np.asarray(real(bounds, "bounds"), dtype=float)
         if len(counts) != d or box.shape != (d, 2):
-            _core.fail("shape and bounds of the grid", expected=f"{d} numbers of points, bounds ({d}, 2)",
+            _core.fail("argument.size", "shape and bounds of the grid", expected=f"{d} numbers of points, bounds ({d}, 2)",
                        found=f"{len(counts)}, bounds {box.shape}")
         low, high = np.vstack([box, np.zeros((3 - d, 2))]).T
         return _core.Grid(d, counts + [1] * (3 - d), low, high), counts
@@ -519,7 +519,7 @@ class Mesh(GivenBack):
         """The values of ask(sampler) at points of that shape, as `sample` returns them."""
         names = [] if fields is None else [fields] if isinstance(fields, str) else list(fields)
         if fields is not None and not names:
-            _core.fail("no fields", expected="a name, names, or None for all")
+            _core.fail("option.missing", "no fields", expected="a name, names, or None for all")
         sampler = self._core.sampler(names, telling(progress))
         values = ask(sampler)
         members: List[Tuple[str, Any, Tuple[int, ...]]] = []
@@ -531,7 +531,7 @@ class Mesh(GivenBack):
         if isinstance(fields, str) and len(members) == 1:
             return values.reshape(shape + members[0][2])
         if not members:
-            _core.fail("the mesh has no fields", remedy="put one into mesh.point_data or mesh.cell_data")
+            _core.fail("option.missing", "the mesh has no fields", remedy="put one into mesh.point_data or mesh.cell_data")
         return values.view(np.dtype(members)).reshape(shape)
 
 
@@ -559,10 +559,10 @@ def read(
         Error: there is no such file or step, it is broken or of another kind; the message says where and why.
     """
     if step is not None and time is not None:
-        _core.fail("step and time", expected="one of them", found="both")
+        _core.fail("option.conflict", "step and time", expected="one of them", found="both")
     last = isinstance(step, str) and step == "last"
     if isinstance(step, str) and not last:
-        _core.fail("step of a series", expected='a number from 0, or "last"', found=repr(step))
+        _core.fail("option.value", "step of a series", expected='a number from 0, or "last"', found=repr(step))
     number = None if step is None or last else count_of(step, "step=")
     mesh = Mesh.__new__(Mesh)._set_core(_core.read(os.fspath(path), number, last, time))
     mesh._set_cells(os.fspath(path), curved, interpolation)

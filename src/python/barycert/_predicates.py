@@ -14,14 +14,14 @@ def _broadcast(what: str, *shapes: Tuple[int, ...]) -> Tuple[int, ...]:
     try:
         return np.broadcast_shapes(*shapes)
     except ValueError:
-        _core.fail(what, expected="shapes that broadcast", found=" and ".join(map(str, shapes)))
+        _core.fail("argument.size", what, expected="shapes that broadcast", found=" and ".join(map(str, shapes)))
 
 
 def _signs(name: str, dimension: int, points: Tuple[Any, ...]) -> Any:
     arrays = [exact_doubles(p, f"points of {name}") for p in points]
     for i, array in enumerate(arrays):
         if array.ndim == 0 or array.shape[-1] != dimension:
-            _core.fail(f"{name}: shape of argument {i}", expected=f"(..., {dimension})", found=str(array.shape))
+            _core.fail("argument.size", f"{name}: shape of argument {i}", expected=f"(..., {dimension})", found=str(array.shape))
     shape = _broadcast(f"{name}: shapes of the points", *(array.shape for array in arrays))
     # Broadcast arrays have strides of 0; the module follows strides, so nothing is copied but shapes that do not flatten.
     rows = [_rows(np.broadcast_to(array, shape), dimension) for array in arrays]
@@ -89,7 +89,7 @@ def insphere(a: Any, b: Any, c: Any, d: Any, e: Any) -> Any:
 def _of_weights(ask: Callable[[np.ndarray, np.ndarray], np.ndarray], vertices: Any, points: Any) -> np.ndarray:
     vertices, points = exact_doubles(vertices, "vertices"), exact_doubles(points, "points")
     if vertices.ndim < 2 or points.ndim < 1 or vertices.shape[-1] != points.shape[-1]:
-        _core.fail("shapes of vertices and points", expected="(..., n, d) and (..., d)",
+        _core.fail("argument.size", "shapes of vertices and points", expected="(..., n, d) and (..., d)",
                    found=f"{vertices.shape} and {points.shape}")  # fmt: skip
     leading = _broadcast("leading shapes of vertices and points", vertices.shape[:-2], points.shape[:-1])
     n, d = vertices.shape[-2:]

@@ -52,13 +52,13 @@ class Surface:
         parts = _triangles_of(points) if triangles is None else Parts(points, triangles)
         coordinates, corners = exact_doubles(parts.points, "points"), np.asarray(parts.cells)
         if coordinates.ndim != 2 or coordinates.shape[1] != 3:
-            _core.fail("shape of the points", expected="(n, 3)", found=str(coordinates.shape))
+            _core.fail("argument.size", "shape of the points", expected="(n, 3)", found=str(coordinates.shape))
         if corners.ndim != 2 or corners.shape[1] != 3 or corners.dtype.kind not in "iu":
-            _core.fail("triangles", expected="integers (m, 3)", found=f"{corners.dtype} {corners.shape}")
+            _core.fail("argument.size", "triangles", expected="integers (m, 3)", found=f"{corners.dtype} {corners.shape}")
         if max(len(coordinates), len(corners)) > 2**31 - 1:
-            _core.fail("a surface has at most 2147483647 points and triangles")
+            _core.fail("mesh.too-large", "a surface has at most 2147483647 points and triangles")
         if corners.size and (corners.min() < 0 or corners.max() >= len(coordinates)):
-            _core.fail("a corner of a triangle", expected=f"0 to {len(coordinates) - 1}", found=f"{corners.min()} to {corners.max()}")
+            _core.fail("mesh.node-index", "a corner of a triangle", expected=f"0 to {len(coordinates) - 1}", found=f"{corners.min()} to {corners.max()}")
         core = _core.Surface(coordinates, np.ascontiguousarray(corners, dtype=np.int32), np.empty(0, dtype=np.int32))
         self._make(core, {**parts.point_data, **(point_data or {})}, {**parts.cell_data, **(cell_data or {})}, [])
 
@@ -114,7 +114,7 @@ class Surface:
         """Whether points (..., 3) lie inside, exactly; `boundary`: or on a triangle. Error: the surface has no inside."""
         if self.turned == "open":
             first = self._core.first_open
-            _core.fail("the surface has no inside", expected="triangles that enclose a part of space",
+            _core.fail("surface.defect", "the surface has no inside", expected="triangles that enclose a part of space",
                        found="none" if first < 0 else f"the shell of triangle {first}, which is open or meets itself",
                        remedy="check() says where it is open, and where it meets itself")  # fmt: skip
         triangle, _, winding = self.locate(points, threads=threads)
@@ -146,7 +146,7 @@ class Surface:
         given, shapes = [], []
         for name in names:
             if name not in known:
-                _core.fail("the name of a field", expected=", ".join(known) or "none", found=name)
+                _core.fail("argument.type", "the name of a field", expected=", ".join(known) or "none", found=name)
             of_cells = name not in self.point_data
             data, places = (self.cell_data, self.triangles) if of_cells else (self.point_data, self.points)
             values, one = values_of(data[name], len(places), f"values of {name}")
@@ -162,7 +162,7 @@ class Surface:
         """
         ends = exact_doubles(np.array([start, end]), "ends")
         if ends.shape != (2, 3):
-            _core.fail("ends of a segment", expected="two points of three coordinates", found=str(ends.shape))
+            _core.fail("argument.size", "ends of a segment", expected="two points of three coordinates", found=str(ends.shape))
         return self._core.hits(ends, ray)
 
     def __reduce__(self) -> Tuple[Any, ...]:
@@ -181,7 +181,7 @@ def _triangles_of(source: Any) -> Parts:
         return Parts(np.asarray(source.vertices), np.asarray(source.faces))
     parts = parts_of(source, in_space=True)
     if parts.cells.shape[1] not in (3, 6):
-        _core.fail("what a surface is made of", expected="triangles", found="tetrahedra")
+        _core.fail("argument.type", "what a surface is made of", expected="triangles", found="tetrahedra")
     parts.cells = parts.cells[:, :3]
     return parts
 

@@ -132,28 +132,28 @@ def verify(
     count = len(rows)
     if values is not None and not isinstance(values, Mapping):
         if not isinstance(fields, str):
-            _core.fail("values without a name", expected='a dict, or fields="NAME"')
+            _core.fail("option.missing", "values without a name", expected='a dict, or fields="NAME"')
         values = {fields: values}
     claimed = dict(values or {})
     if not claimed and cells is None and inside is None:
-        _core.fail("nothing to compare", expected="values, cells or inside")
+        _core.fail("option.missing", "nothing to compare", expected="values, cells or inside")
 
     def flat(array: Any, dtype: Any, what: str) -> Optional[np.ndarray]:
         if array is None:
             return None
         array = np.asarray(array)
         if array.size != count:
-            _core.fail(f"shape of {what}", expected=str(shape), found=str(array.shape))
+            _core.fail("argument.size", f"shape of {what}", expected=str(shape), found=str(array.shape))
         return np.ascontiguousarray(array, dtype=dtype).reshape(-1)
 
     if cells is not None and np.asarray(cells).dtype.kind not in "iu":
-        _core.fail("type of cells", expected="integers", found=str(np.asarray(cells).dtype))
+        _core.fail("argument.type", "type of cells", expected="integers", found=str(np.asarray(cells).dtype))
     sampler = mesh._core.sampler(list(claimed), telling(progress)) if claimed else mesh._core.sampler_of(None, telling(progress))
     parts = []
     for name, components in sampler.fields:
         part = exact_doubles(claimed[name], f'values of "{name}"')
         if part.size != count * components:
-            _core.fail(f'shape of the values of "{name}"', expected=f"{shape}, {components} numbers each",
+            _core.fail("argument.size", f'shape of the values of "{name}"', expected=f"{shape}, {components} numbers each",
                        found=str(part.shape))  # fmt: skip
         parts.append(part.reshape(count, components))
     table = np.ascontiguousarray(np.hstack(parts)) if parts else None

@@ -27,7 +27,7 @@ public:
     Result<std::size_t> read(std::size_t max, std::vector<double>& out) override {
         std::size_t taken = 0;
         for (; taken < max && next_ < count_; ++taken, ++next_) {
-            if (next_ == fault_) return Error{.what = "fault of the source"};
+            if (next_ == fault_) return Error{.code = "file.changed", .what = "fault of the source"};
             for (int k = 0; k < 3; ++k) out.push_back(random_.uniform(low, 1));
         }
         return taken;
@@ -53,7 +53,7 @@ class Sink final : public TableSink {
 public:
     Sink(Written& to, std::size_t fault) : to_(to), fault_(fault) {}
     Status write(const TableView& rows) override {
-        if (to_.cells.size() + rows.row_count() > fault_) return Error{.what = "fault of the sink"};
+        if (to_.cells.size() + rows.row_count() > fault_) return Error{.code = "file.changed", .what = "fault of the sink"};
         to_.points.insert(to_.points.end(), rows.points.begin(), rows.points.end());
         to_.cells.insert(to_.cells.end(), rows.cells.begin(), rows.cells.end());
         to_.values.insert(to_.values.end(), rows.values.begin(), rows.values.end());

@@ -32,6 +32,7 @@
 #include "barycert/oracle.hpp"
 #include "barycert/audit_report.hpp"
 #include "barycert/audit_search.hpp"
+#include "barycert/error_report.hpp"
 #include "barycert/report.hpp"
 #include "check_meshes.hpp"
 #include "schema_tables.hpp"
@@ -82,6 +83,14 @@ void check_reports(Schema& schema) {
     fixed.notes = {{Note::Kind::left_out, "labels"}};
     const std::string repaired = check_json(checked(apart), "part", measure_environment(), &fixed);
     schema.check("Check", Json::parse(repaired), "check");
+}
+
+/// A failure with something of everything, and one of little.
+void failures(Schema& schema) {
+    Error full = about("job.points", file_error("file.truncated", "a.csv", "the \xff file ends", "more", "less", "copy it"));
+    full.line = 3;
+    schema.check("Failure", Json::parse(error_json(full, "--points")), "failure");
+    schema.check("Failure", Json::parse(error_json({.code = "memory.short", .what = "too little"})), "failure");
 }
 
 /// Runs of sampling with something of everything.
@@ -216,6 +225,7 @@ Schema schema_with_all_reports() {
     schema.check("Kernels", Json::parse(kernels_json(catalogue())), "kernels");
     schema.check("Families", Json::parse(families_json(all_families())), "families");
     check_reports(schema);
+    failures(schema);
     sample_reports(schema);
     verify_reports(schema);
     raster_reports(schema);

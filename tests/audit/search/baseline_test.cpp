@@ -51,7 +51,7 @@ protected:
         std::ofstream(path_) << text;
         const Result<Baseline> b = read_baseline(path_);
         EXPECT_FALSE(b);
-        return b ? Error{} : b.error();
+        return b ? Error{.code = "internal.error", .what = "no error"} : b.error();
     }
     const std::string path_ = testing::TempDir() + "barycert_baseline_" + std::to_string(::getpid()) + ".json";
 };

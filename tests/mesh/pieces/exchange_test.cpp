@@ -77,7 +77,7 @@ TEST(Exchanges, TellTheErrorOfTheLowestRankToAll) {
             const Status memory = exchange.everywhere([]() -> Status { throw std::bad_alloc(); });
             EXPECT_EQ(memory.error().message(), size == 1 ? "out of memory" : "rank 0: out of memory");
             const Status lengthy =
-                exchange.everywhere([]() -> Status { return Error{.what = std::string(5000, 'x')}; });
+                exchange.everywhere([]() -> Status { return Error{.code = "mesh.inconsistent", .what = std::string(5000, 'x')}; });
             EXPECT_FALSE(lengthy.has_value());
         });
     }

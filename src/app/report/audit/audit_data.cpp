@@ -3,6 +3,7 @@
 #include "app/report/audit/audit_words.hpp"
 #include "audit/asking.hpp"
 #include "audit/json_members.hpp"
+#include "barycert/finding_severity.hpp"
 
 namespace barycert {
 
@@ -59,6 +60,17 @@ std::string change_text(const BaselineChange& c) {
     return fmt::format("{} {} -> {}", c.figure, base::shortest(c.before), base::shortest(c.after));
 }
 
+/// The classes of findings, worst first.
+Json classes_json() {
+    Json classes = Json::array();
+    for (std::size_t f = 0; f < finding_count; ++f) {
+        const auto finding = static_cast<Finding>(f);
+        classes.push_back(
+            record("name", name(finding), "severity", severity(finding), "meaning", finding_texts[f].meaning));
+    }
+    return classes;
+}
+
 }  // namespace
 
 Json report::audit_data(const AuditReport& r) {
@@ -71,7 +83,7 @@ Json report::audit_data(const AuditReport& r) {
                   list(r.verdicts, [](Verdict v) { return name(v); }), MEMBERS(r, curved, cases), "regions", regions,
                   "oracles", oracles_json(r.oracle, r.oracles), MEMBERS(r, seconds), "families",
                   list(r.families, family_json), "kernels",
-                  list(r.kernels, [&](const KernelResult& k) { return result_json(r, k); }), "witnesses", witnesses);
+                  list(r.kernels, [&](const KernelResult& k) { return result_json(r, k); }), "witnesses", witnesses, "classes", classes_json());
 }
 
 CiReport audit_outcomes(const AuditReport& report, const std::vector<Threshold>& rules,

@@ -3,6 +3,7 @@
 
 #include "app/report/check/check_words.hpp"
 #include "app/report/common/document.hpp"
+#include "barycert/defect_severity.hpp"
 
 namespace barycert {
 
@@ -69,8 +70,9 @@ Json defects_json(const CheckReport& r) {
         const DefectText& t = defect_text(f.kind);
         Json j = record("name", t.name);
         if (!t.condition.empty()) put(j, "condition", t.condition);
-        put(j, "breaks", f.breaks(), MEMBERS(f, count, at_least, curved_cells), "text", t.text, "remedy", f.remedy(),
-            "places", list(f.places, [&](const DefectPlace& p) { return place_json(r, f.kind, p); }));
+        put(j, "breaks", f.breaks(), "severity", severity(f), MEMBERS(f, count, at_least, curved_cells), "text", t.text,
+            "remedy", f.remedy(), "places",
+            list(f.places, [&](const DefectPlace& p) { return place_json(r, f.kind, p); }));
         return j;
     });
 }

@@ -10,25 +10,36 @@
 #include <variant>
 #include <vector>
 
+#include "barycert/error_codes.hpp"
+
 namespace barycert {
 
-/// An input's fault, in the parts that an error message needs. The message leaves out empty parts.
+/// Fault of an input: a code to decide by, and the parts of a message, which leaves out empty ones.
 struct Error {
+    ErrorCode code;         ///< what kind of error it is: doc/errors.md
     std::string what = {};  ///< one clause: what could not be done
     std::string file = {};  ///< path as the user gave it
     std::size_t line = 0;   ///< 1-based; 0 where no line applies
     std::string expected = {};
     std::string found = {};
-    std::string remedy = {};  ///< what to do about it
+    std::string remedy = {};   ///< what to do about it
+    std::string subject = {};  ///< the member of a job or of options that it is about, as job.points; empty: none
 
     /// `file:line: what: expected ..., found ...; remedy`, in one line: safe to show, see printable() in text.hpp.
     std::string message() const;
 };
 
-/// An error of a whole file.
-inline Error file_error(std::string file, std::string what, std::string expected = {}, std::string found = {},
-                        std::string remedy = {}) {
-    return {std::move(what), std::move(file), 0, std::move(expected), std::move(found), std::move(remedy)};
+/// Returns an error of a whole file.
+inline Error file_error(ErrorCode code, std::string file, std::string what, std::string expected = {},
+                        std::string found = {}, std::string remedy = {}) {
+    return {code, std::move(what), std::move(file), 0, std::move(expected), std::move(found), std::move(remedy)};
+}
+
+/// Returns the error with that subject. Its texts may name members, as job.points: a program that calls them
+/// otherwise finds by the subject that they do.
+inline Error about(std::string subject, Error error) {
+    error.subject = std::move(subject);
+    return error;
 }
 
 /// Thrown by Result::value() when there is an error instead of a value.
@@ -88,9 +99,10 @@ struct Note {
         guessed,    ///< the file does not say; this was taken from its contents
     };
     Kind kind = Kind::left_out;
-    std::string text;        ///< what and why, in one clause: "2564 cells that are no tetrahedra: 2564 triangles"
-    std::string file = {};   ///< where; empty: in memory
-    bool important = false;  ///< it may change what results mean: a program tells it even if nobody asks
+    std::string text;          ///< what and why, in one clause: "2564 cells that are no tetrahedra: 2564 triangles"
+    std::string file = {};     ///< where; empty: in memory
+    bool important = false;    ///< it may change what results mean: a program tells it even if nobody asks
+    std::string subject = {};  ///< a member of the job that the text names, as in Error
 
     friend bool operator==(const Note&, const Note&) = default;
 };

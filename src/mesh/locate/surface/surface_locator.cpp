@@ -8,8 +8,10 @@ namespace locate {
 namespace {
 
 Error inconsistent(std::string found) {
-    return {
-        .what = "the surface is inconsistent", .found = std::move(found), .remedy = "correct the surface in memory"};
+    return {.code = "surface.inconsistent",
+            .what = "the surface is inconsistent",
+            .found = std::move(found),
+            .remedy = "correct the surface in memory"};
 }
 
 Status check(const Surface& s) {
@@ -110,7 +112,8 @@ Result<SurfaceLocation> SurfaceLocator::locate(const double* point) const {
 Status SurfaceLocator::locate(std::span<const double> points, std::span<SurfaceLocation> found, int threads) const {
     const ExactEnvironment environment;
     if (Status status = check_size(points, 3); !status) return status.error();
-    if (found.size() != points.size() / 3) return Error{.what = "as many places for results as points"};
+    if (found.size() != points.size() / 3)
+        return Error{.code = "argument.size", .what = "as many places for results as points"};
     if (Status status = check_finite(points, 3); !status) return status.error();
     base::in_arena(threads, found.size(), [&] {
         // A map pays for itself once there are as many points as a fraction of the triangles.
@@ -137,7 +140,8 @@ Status SurfaceLocator::nearest(std::span<const double> points, double limit, std
                                int threads) const {
     const ExactEnvironment environment;
     if (Status status = check_size(points, 3); !status) return status.error();
-    if (found.size() != points.size() / 3) return Error{.what = "as many places for results as points"};
+    if (found.size() != points.size() / 3)
+        return Error{.code = "argument.size", .what = "as many places for results as points"};
     if (Status status = check_finite(points, 3); !status) return status.error();
     limit = base::held(limit);
     base::in_arena(threads, found.size(), [&] {
@@ -154,7 +158,7 @@ Status SurfaceLocator::nearest_on(std::span<const Mesh::Index> triangles, std::s
                                   std::span<SurfaceNearest> found, int threads) const {
     const ExactEnvironment environment;
     if (points.size() != 3 * triangles.size() || found.size() != triangles.size())
-        return Error{.what = "as many triangles and places for results as points"};
+        return Error{.code = "argument.size", .what = "as many triangles and places for results as points"};
     if (Status status = check_cells(triangles, data_->surface->cell_count()); !status) return status.error();
     if (Status status = check_finite(points, 3); !status) return status.error();
     base::in_arena(threads, found.size(), [&] {
@@ -173,9 +177,11 @@ Status SurfaceLocator::values(const Field& field, bool of_cells, std::span<const
     const auto width = static_cast<std::size_t>(field.components);
     const std::size_t rows = of_cells ? s.cell_count() : s.point_count();
     if (field.components < 1 || field.data.size() != rows * width)
-        return Error{.what = "a field that does not fit the surface", .expected = std::to_string(rows) + " values"};
+        return Error{.code = "argument.size",
+                     .what = "a field that does not fit the surface",
+                     .expected = std::to_string(rows) + " values"};
     if (points.size() != 3 * nearest.size() || out.size() != width * nearest.size())
-        return Error{.what = "as many values as points, and their nearest points"};
+        return Error{.code = "argument.size", .what = "as many values as points, and their nearest points"};
     base::in_arena(threads, nearest.size(), [&] {
         base::parallel_for_each(nearest.size(), 256, [&](std::size_t i) {
             for (std::size_t c = 0; c < width; ++c)
@@ -191,7 +197,8 @@ Result<std::vector<SurfaceHit>> SurfaceLocator::hits(const double* a, const doub
         if (Status status = check_finite({end, 3}, 3); !status) return status.error();
     }
     if (std::equal(a, a + 3, b))
-        return Error{.what = "the ends of a segment", .expected = "two points", .found = "one"};
+        return Error{
+            .code = "argument.size", .what = "the ends of a segment", .expected = "two points", .found = "one"};
     return data_->hits(a, b, ray);
 }
 

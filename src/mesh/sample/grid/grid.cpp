@@ -12,14 +12,18 @@ namespace barycert {
 namespace {
 
 Error along_axis(const char* what, std::size_t axis, std::string expected, std::string found) {
-    return {.what = std::string(what) + " of the grid along " + "xyz"[axis],
+    return {.code = "argument.value",
+            .what = std::string(what) + " of the grid along " + "xyz"[axis],
             .expected = std::move(expected),
             .found = std::move(found)};
 }
 
 Status check_box(int dimension, const std::array<double, 3>& low, const std::array<double, 3>& high) {
     if (dimension != 2 && dimension != 3)
-        return Error{.what = "dimension of the grid", .expected = "2 or 3", .found = std::to_string(dimension)};
+        return Error{.code = "argument.value",
+                     .what = "dimension of the grid",
+                     .expected = "2 or 3",
+                     .found = std::to_string(dimension)};
     for (std::size_t k = 0; k < static_cast<std::size_t>(dimension); ++k) {
         if (!(std::isfinite(low[k]) && std::isfinite(high[k]) && low[k] <= high[k] && std::isfinite(high[k] - low[k])))
             return along_axis("bounds", k, "finite numbers, min before max, with a finite difference",
@@ -60,7 +64,10 @@ Result<Grid> checked(const Grid& grid) {
     const double points =
         static_cast<double>(grid.counts[0]) * static_cast<double>(grid.counts[1]) * static_cast<double>(grid.counts[2]);
     if (!(points <= 0x1p62))
-        return Error{.what = "points of the grid", .expected = "at most 2^62", .found = base::shortest(points)};
+        return Error{.code = "argument.value",
+                     .what = "points of the grid",
+                     .expected = "at most 2^62",
+                     .found = base::shortest(points)};
     for (std::size_t k = 0; k < 3; ++k) {
         if (grid.counts[k] == 1) continue;
         // Among subnormal numbers, or far from zero, a spacing may be less than what doubles differ by.

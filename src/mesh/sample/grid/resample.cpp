@@ -297,7 +297,8 @@ std::size_t slab_depth(std::size_t layers, std::size_t layer_size, std::size_t r
 Status check_grid(const SamplerData& data, const Grid& grid) {
     const int dimension = data.located().mesh->dimension;
     if (grid.dimension != dimension)
-        return Error{.what = "dimension of the grid",
+        return Error{.code = "point.dimension",
+                     .what = "dimension of the grid",
                      .expected = std::to_string(dimension) + ", that of the mesh",
                      .found = std::to_string(grid.dimension)};
     for (std::size_t k = 0; k < 3; ++k) {
@@ -307,11 +308,14 @@ Status check_grid(const SamplerData& data, const Grid& grid) {
                           (!several || grid.spacing[k] > 0) &&
                           (!several || grid.coordinate(k, grid.counts[k] - 2) <= grid.last[k]) &&
                           (grid.dimension == 3 || k < 2 || !several);
-        if (!good) return Error{.what = "invalid grid", .remedy = "make it by grid_over or grid_spaced"};
+        if (!good)
+            return Error{
+                .code = "argument.value", .what = "invalid grid", .remedy = "make it by grid_over or grid_spaced"};
     }
     const std::int64_t layer = grid.counts[0] * (grid.dimension == 3 ? grid.counts[1] : 1);
     if (layer > 0x7fffffff)
-        return Error{.what = "points of one layer of the grid",
+        return Error{.code = "argument.value",
+                     .what = "points of one layer of the grid",
                      .expected = "at most 2147483647",
                      .found = std::to_string(layer),
                      .remedy = "resample in several grids"};

@@ -16,7 +16,8 @@ inline bool gives_distances(const OutsidePolicy& policy) {
 
 /// Returns the error that a point is outside, under the policy `error`.
 inline Error outside_error(const std::string& point) {
-    return {.what = point + " is outside the mesh",
+    return {.code = "point.outside",
+            .what = point + " is outside the mesh",
             .remedy = "choose what points outside get: nan, fill, nearest or extrapolate"};
 }
 

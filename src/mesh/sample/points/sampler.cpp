@@ -127,7 +127,8 @@ Status arrange_columns(const Mesh& mesh, const std::vector<FieldChoice>& fields,
         const locate::MappedCells* const mapped = data.located().mapped.get();
         if (mapped != nullptr && (mapped->has_products() || mapped->has_curves()) &&
             std::ranges::any_of(asked.steps, is_gradient))
-            return Error{.what = "gradients are those of straight cells and their parts",
+            return Error{.code = "field.location",
+                         .what = "gradients are those of straight cells and their parts",
                          .found = mapped->has_products() ? "multilinear interpolation" : "curved cells",
                          .remedy = "take the interpolation linear, and straight sides"};
         const auto asks_for_cells = [&](const QuantityStep& step) {
@@ -293,14 +294,17 @@ Status Sampler::evaluate(std::span<const double> points, const SampleOptions& op
     const std::size_t d = data_->index().dimension(), count = points.size() / d;
     const std::vector<Mesh::Index>& cells = out.cells;
     if (cells.size() != count || out.features.size() != count)
-        return Error{.what = "size of the locations",
+        return Error{.code = "argument.size",
+                     .what = "size of the locations",
                      .expected = "one cell and one feature for each of " + std::to_string(count) + " points",
                      .found = std::to_string(cells.size()) + " and " + std::to_string(out.features.size())};
     if (Status good = locate::check_cells(cells, data_->index().cell_count()); !good) return good;
     for (std::size_t row = 0; !finite && row < count; ++row) {
         if (cells[row] >= 0 && !base::all_finite({&points[d * row], d}))
-            return Error{
-                .what = "a cell of a point that is not finite", .expected = "-1", .found = std::to_string(cells[row])};
+            return Error{.code = "argument.value",
+                         .what = "a cell of a point that is not finite",
+                         .expected = "-1",
+                         .found = std::to_string(cells[row])};
     }
     sample::resize(*data_, options, count, out);
     const std::vector<locate::Place>& places = data_->located().parts.places();

@@ -43,7 +43,8 @@ Error no_such_field(const Mesh& mesh, const std::string& name) {
     if (points.empty())
         remedy = cells.empty() ? "the mesh has none; a field may come from a file of its own" : "there are";
     if (!cells.empty()) remedy += (points.empty() ? " " : ", and of cells ") + cells;
-    return {.what = "no field of that name",
+    return {.code = "field.unknown",
+            .what = "no field of that name",
             .found = '"' + name + '"',
             .remedy = base::did_you_mean(name, all_field_names(mesh), remedy)};
 }
@@ -110,8 +111,8 @@ std::optional<std::string> common_column(const Mesh& mesh, const std::vector<Fie
     return twice == names.end() ? std::nullopt : std::optional(*twice);
 }
 
-Error wrong_choice(std::string what, const FieldChoice& choice, std::string remedy) {
-    return {.what = std::move(what), .found = '"' + name_of(choice) + '"', .remedy = std::move(remedy)};
+Error wrong_choice(ErrorCode code, std::string what, const FieldChoice& choice, std::string remedy) {
+    return {.code = code, .what = std::move(what), .found = '"' + name_of(choice) + '"', .remedy = std::move(remedy)};
 }
 
 }  // namespace
@@ -132,11 +133,13 @@ Result<QuantityShape> shape_of(const Mesh& mesh, const FieldChoice& choice) {
     bool length_at_points = false;
     for (const QuantityStep& step : choice.steps) {
         if (length_at_points)
-            return wrong_choice("nothing is made of a length at points", choice, "ask for the length alone");
+            return wrong_choice("field.location", "nothing is made of a length at points", choice,
+                                "ask for the length alone");
         switch (step.kind) {
             case Kind::component:
                 if (step.component < 0 || static_cast<std::size_t>(step.component) >= shape.components)
-                    return Error{.what = "no such component in \"" + name_of(choice) + '"',
+                    return Error{.code = "field.component",
+                                 .what = "no such component in \"" + name_of(choice) + '"',
                                  .expected = "0 to " + std::to_string(shape.components - 1),
                                  .found = std::to_string(step.component),
                                  .remedy = "components count from 0; x, y, z are 0, 1, 2"};
@@ -149,7 +152,8 @@ Result<QuantityShape> shape_of(const Mesh& mesh, const FieldChoice& choice) {
                 break;
             case Kind::gradient:
                 if (shape.of_cells || shape.at_points)
-                    return wrong_choice("the gradient of what is constant in each cell, or of a gradient", choice,
+                    return wrong_choice("field.location",
+                                        "the gradient of what is constant in each cell, or of a gradient", choice,
                                         "ask for that of a field of nodes, or of the mean at nodes: grad(mean(NAME))");
                 shape.components *= static_cast<std::size_t>(mesh.dimension);
                 shape.at_points = !mesh.mid_nodes.empty();
@@ -157,7 +161,7 @@ Result<QuantityShape> shape_of(const Mesh& mesh, const FieldChoice& choice) {
                 break;
             default:
                 if (!shape.of_cells)
-                    return wrong_choice("the mean over cells of what is not a field of cells", choice,
+                    return wrong_choice("field.location", "the mean over cells of what is not a field of cells", choice,
                                         "ask for that of a field of cells: mean(cell:NAME)");
                 shape.of_cells = false;
         }
@@ -193,13 +197,16 @@ Result<std::vector<FieldChoice>> quantities_named(const Mesh& mesh, const std::v
         if (const Result<QuantityShape> shape = shape_of(mesh, chosen[i]); !shape) return shape.error();
         for (std::size_t k = 0; k < i; ++k) {
             if (chosen[i].field == chosen[k].field && chosen[i].steps == chosen[k].steps)
-                return wrong_choice(chosen[i].steps.empty() ? "a field is chosen twice" : "a column is chosen twice",
+                return wrong_choice("field.duplicate",
+                                    chosen[i].steps.empty() ? "a field is chosen twice" : "a column is chosen twice",
                                     chosen[i], "name it once");
         }
     }
     if (const auto name = common_column(mesh, chosen))
-        return Error{
-            .what = "two columns have the same name", .found = '"' + *name + '"', .remedy = "choose one of them"};
+        return Error{.code = "column.duplicate",
+                     .what = "two columns have the same name",
+                     .found = '"' + *name + '"',
+                     .remedy = "choose one of them"};
     std::ranges::stable_sort(chosen, {}, rank);
     return chosen;
 }

@@ -65,12 +65,13 @@ Status make_all_fields(const Mesh& mesh, std::vector<FieldChoice>& choices, std:
     for (FieldChoice& choice : choices) {
         if (choice.steps.empty()) continue;
         if (const char* const wrong = mesh::inconsistency_of_cells(mesh, mesh::FieldValues::any); wrong != nullptr)
-            return Error{.what = std::string("the mesh is inconsistent: ") + wrong};
+            return Error{.code = "mesh.inconsistent", .what = std::string("the mesh is inconsistent: ") + wrong};
         const Result<QuantityShape> shape = shape_of(mesh, choice);
         if (!shape) return shape.error();
         make_fields(mesh, choice, choice.steps.size(), made, true);
         if (!choice.steps.empty())
-            return Error{.what = "no field has what differs from point to point in a cell",
+            return Error{.code = "field.location",
+                         .what = "no field has what differs from point to point in a cell",
                          .found = '"' + choice.name + '"',
                          .remedy = "on cells of second order draw the field itself, or sample its gradient at points"};
         made.back().name = choice.name;
@@ -84,11 +85,15 @@ Result<FieldChoice> number_named(const Mesh& mesh, const std::string& name) {
     Result<std::vector<FieldChoice>> chosen = quantities_named(mesh, {name});
     if (!chosen) return chosen.error();
     if (chosen->size() != 1)
-        return Error{
-            .what = "more than one field", .expected = "one", .found = base::quoted(name), .remedy = "name one"};
+        return Error{.code = "field.ambiguous",
+                     .what = "more than one field",
+                     .expected = "one",
+                     .found = base::quoted(name),
+                     .remedy = "name one"};
     const std::size_t n = shape_of(mesh, chosen->front())->components;
     if (n == 1) return std::move(chosen->front());
     return Error{
+        .code = "field.component",
         .what = "the field has several components",
         .expected = "one: " + name + ".0 to " + name + '.' + std::to_string(n - 1) + ", or the length |" + name + "|",
         .found = base::quoted(name),

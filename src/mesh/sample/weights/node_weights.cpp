@@ -59,7 +59,8 @@ private:
         const MeshQueries queries{simplex_, mesh_.points, mesh_.cells, cells_, points_};
         Status done = quadratic() ? second_order(tiers) : barycentric_weights(queries, weights_, &tiers);
         if (!done) return done;
-        if (tiers.degenerate != 0) return Error{.what = "a row names a degenerate cell, which has no weights"};
+        if (tiers.degenerate != 0)
+            return Error{.code = "point.degenerate", .what = "a row names a degenerate cell, which has no weights"};
         for (std::size_t i = first, inside = 0; i < last; ++i) {
             const Mesh::Index owner = owners_[i - first];
             if (owner < 0) {
@@ -76,7 +77,8 @@ private:
         std::array<double, max_nodes_of_cell> weights{};
         const auto nodes = mapped_->weights(rows_.cells[row], rows_.points.data() + d_ * row, weights.data());
         if (nodes.count == 0)
-            return Error{.what = "the map of cell " + std::to_string(mesh_.cell_number(rows_.cells[row])) +
+            return Error{.code = "point.degenerate",
+                         .what = "the map of cell " + std::to_string(mesh_.cell_number(rows_.cells[row])) +
                                  " cannot be inverted at a point",
                          .remedy = "take the interpolation linear"};
         add_row(nodes.at.data(), weights.data(), nodes.count);
@@ -181,7 +183,8 @@ Result<NodeWeights> node_weights(const Locator& locator, const TableView& rows, 
     if (!locator.mesh().is_listed()) return locate::not_listed("weights of nodes");
     const auto d = static_cast<std::size_t>(locator.mesh().dimension);
     if (rows.points.size() != d * rows.cells.size())
-        return Error{.what = "size of the points",
+        return Error{.code = "argument.size",
+                     .what = "size of the points",
                      .expected = std::to_string(d) + " coordinates a row",
                      .found = std::to_string(rows.points.size()) + " numbers for " + std::to_string(rows.cells.size())};
     if (Status good = locate::check_cells(rows.cells, locator.mesh().cell_count()); !good) return good.error();

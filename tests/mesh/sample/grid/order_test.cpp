@@ -111,7 +111,7 @@ TEST(ResampleOrder, TheSinkStopsIt) {
         for (const int stop : {1, 4, 9}) {
             int calls = 0;
             const auto sink = [&](const TableView&) -> Status {
-                if (++calls == stop) return Error{.what = "the disk is full"};
+                if (++calls == stop) return Error{.code = "file.unwritable", .what = "the disk is full"};
                 return Done{};
             };
             const auto status = resample(*sampler, grid, on_threads(threads), sink);

@@ -1,0 +1,18 @@
+/// An error as JSON, as programs write it in place of a report: Failure in doc/json.md.
+///
+///     const Result<Mesh> mesh = read_mesh(path);
+///     if (!mesh) std::cout << error_json(mesh.error());
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "barycert/result.hpp"
+
+namespace barycert {
+
+/// Returns the JSON, in UTF-8 whatever bytes the error's parts have. `option`: the option of a program that sets what
+/// the error is about; empty: none.
+std::string error_json(const Error& error, std::string_view option = {});
+
+}  // namespace barycert
