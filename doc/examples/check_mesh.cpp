@@ -1,7 +1,7 @@
 // Proves that a mesh is a partition of its domain, or lists its defects.
 
 #include <barycert/check.hpp>
-#include <barycert/io.hpp>
+#include <barycert/mesh_files.hpp>
 
 #include <cstdio>
 

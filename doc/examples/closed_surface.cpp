@@ -1,7 +1,7 @@
 // What lies inside a closed surface, what is nearest on it, and where a segment leaves it.
 
 #include <barycert/check.hpp>
-#include <barycert/io.hpp>
+#include <barycert/surface_files.hpp>
 #include <barycert/surface_locator.hpp>
 
 #include <cstdio>

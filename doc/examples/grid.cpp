@@ -1,7 +1,7 @@
 // Fills a regular grid.
 
 #include <barycert/grid.hpp>
-#include <barycert/io.hpp>
+#include <barycert/mesh_files.hpp>
 
 #include <cstdio>
 

@@ -1,7 +1,7 @@
 // A whole job, files to files: what `barycert sample` does.
 
-#include <barycert/jobs.hpp>
 #include <barycert/report.hpp>
+#include <barycert/sample_job.hpp>
 
 #include <cstdio>
 

@@ -1,6 +1,6 @@
 // Interpolates the fields of a mesh file; what to do with points outside; what the counts say.
 
-#include <barycert/io.hpp>
+#include <barycert/mesh_files.hpp>
 #include <barycert/sampler.hpp>
 
 #include <cstdio>

@@ -1,7 +1,7 @@
 // Follows a particle: the cell of one point at a time, and the nearest point of the mesh.
 
-#include <barycert/io.hpp>
 #include <barycert/locator.hpp>
+#include <barycert/mesh_files.hpp>
 
 #include <cstdio>
 #include <limits>

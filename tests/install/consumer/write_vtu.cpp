@@ -4,7 +4,7 @@
 #include <fstream>
 #include <string>
 
-#include <barycert/io.hpp>
+#include <barycert/vtk_files.hpp>
 
 int main(int argc, char** argv) {
     const std::string path = argc > 1 ? argv[1] : "";
