@@ -126,7 +126,7 @@ TEST(CsvPieces, TheFirstBadLineIsToldWhateverComesAfter) {
             EXPECT_LE(points.size(), 3 * bad);
             EXPECT_GE(points.size() + 3 * block, 3 * bad);
             EXPECT_TRUE(std::equal(points.begin(), points.end(), text.points.begin()));
-            EXPECT_EQ((*source)->read(block, points).error().line, error.line) << "nothing but that";
+            EXPECT_EQ((*source)->read(block, points).error().line, error->line) << "nothing but that";
         }
     }
 }

@@ -15,7 +15,8 @@ namespace {
 using base::cross, base::dot;
 
 Error no_camera(const std::string& what, const std::string& expected, const std::string& found) {
-    return {.what = what, .expected = expected, .found = found, .remedy = "choose other numbers"};
+    return {
+        .code = "argument.value", .what = what, .expected = expected, .found = found, .remedy = "choose other numbers"};
 }
 
 std::string text_of(std::span<const double> numbers) {

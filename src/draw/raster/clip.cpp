@@ -131,7 +131,11 @@ Form distance_form(std::size_t d, const double* a, const double* b, const HalfSp
 }
 
 Error bad_bound(const std::string& what, const std::string& expected, double found) {
-    return {.what = what, .expected = expected, .found = std::to_string(found), .remedy = "choose another bound"};
+    return {.code = "argument.value",
+            .what = what,
+            .expected = expected,
+            .found = std::to_string(found),
+            .remedy = "choose another bound"};
 }
 
 constexpr int bounds = 6;  ///< x, y, z <= w, then -w <= x, y, z

@@ -9,7 +9,7 @@ namespace raster {
 namespace {
 
 Error misfit(const std::string& what, const std::string& expected, const std::string& found) {
-    return {.what = what, .expected = expected, .found = found, .remedy = "correct the scene"};
+    return {.code = "scene.member", .what = what, .expected = expected, .found = found, .remedy = "correct the scene"};
 }
 
 /// An array has finite numbers for each of `vertices`, or none.

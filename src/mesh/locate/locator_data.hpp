@@ -16,8 +16,8 @@ struct LocatorData : FrozenIndex {
     static const LocatorData& of(const Locator& locator) { return *locator.data_; }
 
     template <class Stage>
-    LocatorData(const Mesh& mesh, const BuildOptions& options, const Stage& stage)
-        : FrozenIndex(mesh, options, stage),
+    LocatorData(const Mesh& whole, const BuildOptions& options, const Stage& stage)
+        : FrozenIndex(whole, options, stage),
           parts(*this, options.prove == Prove::never ? Method::candidates : Method::walk, options.threads),
           policy(parts, index) {}
 

@@ -23,7 +23,7 @@ Status Exchange::agree(const Status& mine) {
     }
     ranks_.broadcast(std::as_writable_bytes(std::span(&told, 1)), first);
     gathered_ += sizeof told;
-    return Error{.code = ErrorCode::named(told.code.data()).value_or("rank.lost"),
+    return Error{.code = ErrorCode::named(told.code.data()).value_or(ErrorCode("rank.lost")),
                  .what = "rank " + std::to_string(first) + ": " + told.text.data()};
 }
 

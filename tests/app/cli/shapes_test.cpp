@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "process.hpp"
+#include "sample_meshes.hpp"
 
 namespace barycert::cli_test {
 namespace {

@@ -12,7 +12,8 @@ namespace barycert {
 namespace {
 
 TEST(Error, MessageHasEveryPartInOrder) {
-    const Error full{.code = "file.syntax", .what = "cannot read the vertex",
+    const Error full{.code = "file.syntax",
+                     .what = "cannot read the vertex",
                      .file = "a.node",
                      .line = 7,
                      .expected = "3 coordinates",
@@ -22,9 +23,10 @@ TEST(Error, MessageHasEveryPartInOrder) {
 }
 
 TEST(Error, EmptyPartsLeaveNoTrace) {
-    EXPECT_EQ(Error{.code = "file.syntax", .what = "no"}.message(), "no");
+    EXPECT_EQ((Error{.code = "file.syntax", .what = "no"}.message()), "no");
     EXPECT_EQ((Error{.code = "file.syntax", .what = "no", .file = "f"}.message()), "f: no");
-    EXPECT_EQ((Error{.code = "file.syntax", .what = "no", .line = 3}.message()), "no");  // a line without a file says nothing
+    EXPECT_EQ((Error{.code = "file.syntax", .what = "no", .line = 3}.message()),
+              "no");  // a line without a file says nothing
     EXPECT_EQ((Error{.code = "file.syntax", .what = "no", .expected = "x"}.message()), "no: expected x");
     EXPECT_EQ((Error{.code = "file.syntax", .what = "no", .found = "y"}.message()), "no: found y");
     EXPECT_EQ((Error{.code = "file.syntax", .what = "no", .remedy = "z"}.message()), "no; z");
@@ -46,7 +48,9 @@ TEST(Result, HoldsAValueOrAnError) {
 }
 
 template <class T>
-concept needs_no_code = requires { T{.what = "no"}; };
+concept needs_no_code = requires {
+    T{.what = "no"};
+};
 
 TEST(ErrorCode, EachErrorHasOne) {
     static_assert(!needs_no_code<Error>);
