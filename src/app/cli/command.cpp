@@ -81,8 +81,9 @@ bool may_be_replaced(const std::string& path) {
 /// No error of its own: the first one has been told.
 void write_json(const Error& error) {
     const std::string path = std::exchange(expected_json, {});
-    // Where outputs collide, the place is another file's.
-    if (path.empty() || error.code == "file.overwrite" || (path != "-" && !may_be_replaced(path))) return;
+    // Where outputs collide, the place is another file's; where the error is about that output, its name is wrong.
+    if (path.empty() || error.code == "file.overwrite" || error.code == "series.place" || error.file == path) return;
+    if (path != "-" && !may_be_replaced(path)) return;
     static_cast<void>(write_output(path, error_json(error, option_of_subject(error.subject))));
 }
 

@@ -77,7 +77,7 @@ TEST(ErrorJson, LeavesAReportThatIsThere) {
     const std::string report = scratch.path("r.json");
     const Ended r = run({"check", mesh("bracket"), "--json", report, "--html", "/dev/full"});
     EXPECT_EQ(r.code, 2) << r.err;
-    EXPECT_TRUE(parse(read_file(report)).contains("certified"));
+    EXPECT_TRUE(parse(read_file(report)).contains("verdict"));
 }
 
 TEST(ErrorJson, IsNotWrittenUnlessAsked) {
