@@ -1,4 +1,6 @@
+#include "barycert/gaps.hpp"
 #include "barycert/audit_search.hpp"
+#include "barycert/mutants.hpp"
 
 #include <chrono>
 #include <cmath>

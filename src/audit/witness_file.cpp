@@ -1,6 +1,8 @@
 #include "audit/json_members.hpp"
 #include "audit/search/evaluation.hpp"
 #include "barycert/audit_search.hpp"
+#include "barycert/gaps.hpp"
+#include "barycert/mutants.hpp"
 #include "files/json_text.hpp"
 
 namespace barycert {

@@ -5,7 +5,7 @@
 
 namespace barycert {
 
-/// Those that have a name here; what is known of each of VTK's types stands in mesh/cell_types.cpp.
+/// Types that have a name here; what is known of each of VTK's types stands in mesh/cell_types.cpp.
 enum VtkCell : std::uint8_t {
     vtk_empty_cell = 0,
     vtk_vertex = 1,

@@ -24,7 +24,7 @@ struct Pipe {
     Pipe();
 };
 
-/// What arrives at a descriptor: the first `most` bytes are kept, all others read and left out.
+/// Bytes that arrive at a descriptor: the first `most` bytes are kept, all others read and left out.
 struct Stream {
     int descriptor = -1;
     std::string text = {};

@@ -34,7 +34,7 @@ struct CellType {
     std::string_view meshio = {};    ///< meshio's name, "tetra"; empty: it has none
     bool in_shapes = false;          ///< Mesh::Shapes has cells of it: linear ones and curved simplices
 
-    /// Of points and lines 0, too.
+    /// 0 for points and lines, too.
     constexpr int dimension() const {
         if (kind == CellKind::triangle || kind == CellKind::surface) return 2;
         return kind == CellKind::tetrahedron || kind == CellKind::solid ? 3 : 0;

@@ -1,4 +1,4 @@
-#include "barycert/defect_severity.hpp"
+#include "barycert/defect.hpp"
 #include "barycert/report.hpp"
 #include "bindings.hpp"
 
@@ -40,9 +40,8 @@ py::list defects_of(const CheckReport& report) {
     return list_of(report.defects, [&](const Defect& d) {
         const DefectText& text = defect_text(d.kind);
         return py::dict("kind"_a = text.name, "count"_a = d.count, "at_least"_a = d.at_least, "breaks"_a = d.breaks(),
-                        "severity"_a = name(severity(d)),
-                        "condition"_a = text.condition, "text"_a = text.text, "remedy"_a = d.remedy(),
-                        "places"_a = list_of(d.places, place_of));
+                        "severity"_a = name(severity(d)), "condition"_a = text.condition, "text"_a = text.text,
+                        "remedy"_a = d.remedy(), "places"_a = list_of(d.places, place_of));
     });
 }
 

@@ -11,26 +11,26 @@
 #include <mutex>
 #include <type_traits>
 
-#include "barycert/check.hpp"
 #include "barycert/certificate.hpp"
+#include "barycert/check.hpp"
 #include "barycert/check_results.hpp"
 #include "barycert/defect.hpp"
 #include "barycert/fix.hpp"
-#include "barycert/measures.hpp"
-#include "barycert/not_finite.hpp"
-#include "barycert/surface_report.hpp"
-#include "barycert/plc.hpp"
-#include "barycert/surface.hpp"
 #include "barycert/gmsh_files.hpp"
+#include "barycert/measures.hpp"
 #include "barycert/mesh_files.hpp"
+#include "barycert/not_finite.hpp"
+#include "barycert/plc.hpp"
 #include "barycert/plc_files.hpp"
 #include "barycert/point_files.hpp"
+#include "barycert/sampler.hpp"
 #include "barycert/series.hpp"
+#include "barycert/surface.hpp"
 #include "barycert/surface_files.hpp"
+#include "barycert/surface_report.hpp"
 #include "barycert/table_files.hpp"
 #include "barycert/tetgen_files.hpp"
 #include "barycert/vtk_files.hpp"
-#include "barycert/sampler.hpp"
 
 namespace barycert::python {
 

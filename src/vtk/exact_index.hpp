@@ -9,10 +9,10 @@
 #include "barycert/point_files.hpp"
 #include "barycert/series.hpp"
 #include "barycert/surface_files.hpp"
+#include "barycert/surface_locator.hpp"
 #include "barycert/table_files.hpp"
 #include "barycert/tetgen_files.hpp"
 #include "barycert/vtk_files.hpp"
-#include "barycert/surface_locator.hpp"
 #include "mesh/pieces/piece.hpp"
 
 class vtkCell;

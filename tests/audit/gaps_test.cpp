@@ -1,6 +1,8 @@
 // Gaps and overlaps: what exact weights do at shared faces is known, and kernels with a known fault are found out.
 
+#include "barycert/gaps.hpp"
 #include "barycert/audit_search.hpp"
+#include "barycert/mutants.hpp"
 
 #include <gtest/gtest.h>
 

@@ -10,6 +10,7 @@
 
 #include "barycert/gmsh_files.hpp"
 #include "barycert/mesh_files.hpp"
+#include "barycert/oracle.hpp"
 #include "barycert/plc_files.hpp"
 #include "barycert/point_files.hpp"
 #include "barycert/series.hpp"
@@ -17,7 +18,6 @@
 #include "barycert/table_files.hpp"
 #include "barycert/tetgen_files.hpp"
 #include "barycert/vtk_files.hpp"
-#include "barycert/oracle.hpp"
 #include "tests/mesh/curved_mesh.hpp"
 
 namespace barycert {

@@ -24,8 +24,8 @@
 #include <string_view>
 #include <vector>
 
-#include "barycert/grid.hpp"
 #include "barycert/gmsh_files.hpp"
+#include "barycert/grid.hpp"
 #include "barycert/mesh_files.hpp"
 #include "barycert/plc_files.hpp"
 #include "barycert/point_files.hpp"

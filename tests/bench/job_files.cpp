@@ -12,8 +12,8 @@
 #include <sstream>
 #include <utility>
 
-#include "barycert/grid.hpp"
 #include "barycert/gmsh_files.hpp"
+#include "barycert/grid.hpp"
 #include "barycert/mesh_files.hpp"
 #include "barycert/plc_files.hpp"
 #include "barycert/point_files.hpp"

@@ -28,8 +28,8 @@
 #include <string_view>
 
 #include "barycert/environment.hpp"
-#include "barycert/grid.hpp"
 #include "barycert/gmsh_files.hpp"
+#include "barycert/grid.hpp"
 #include "barycert/mesh_files.hpp"
 #include "barycert/plc_files.hpp"
 #include "barycert/point_files.hpp"
@@ -37,8 +37,8 @@
 #include "barycert/surface_files.hpp"
 #include "barycert/table_files.hpp"
 #include "barycert/tetgen_files.hpp"
-#include "barycert/vtk_files.hpp"
 #include "barycert/verify.hpp"
+#include "barycert/vtk_files.hpp"
 #include "core/base/large_pages.hpp"
 #include "core/base/random.hpp"
 #include "core/base/text.hpp"

@@ -4,16 +4,16 @@
 #include <optional>
 #include <string>
 
-#include "barycert/check.hpp"
 #include "barycert/certificate.hpp"
+#include "barycert/check.hpp"
 #include "barycert/check_results.hpp"
 #include "barycert/defect.hpp"
 #include "barycert/fix.hpp"
 #include "barycert/measures.hpp"
 #include "barycert/not_finite.hpp"
-#include "barycert/surface_report.hpp"
 #include "barycert/plc.hpp"
 #include "barycert/surface.hpp"
+#include "barycert/surface_report.hpp"
 #include "core/base/random.hpp"
 #include "sample_rounds.hpp"
 

@@ -6,19 +6,19 @@
 #include <utility>
 #include <vector>
 
-#include "barycert/check.hpp"
 #include "barycert/certificate.hpp"
+#include "barycert/check.hpp"
 #include "barycert/check_results.hpp"
 #include "barycert/defect.hpp"
 #include "barycert/fix.hpp"
-#include "barycert/measures.hpp"
-#include "barycert/not_finite.hpp"
-#include "barycert/surface_report.hpp"
-#include "barycert/plc.hpp"
-#include "barycert/surface.hpp"
 #include "barycert/grid.hpp"
 #include "barycert/locator.hpp"
+#include "barycert/measures.hpp"
+#include "barycert/not_finite.hpp"
+#include "barycert/plc.hpp"
 #include "barycert/sampler.hpp"
+#include "barycert/surface.hpp"
+#include "barycert/surface_report.hpp"
 #include "require.hpp"
 
 namespace barycert::bench {

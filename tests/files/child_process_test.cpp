@@ -15,7 +15,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// What `/bin/sh -c script` writes to its descriptor 1, of which `most` bytes are kept; its stdin is `/dev/null`.
+/// Output of `/bin/sh -c script` on its descriptor 1, of which `most` bytes are kept; its stdin is `/dev/null`.
 struct Shell {
     Pipe out;
     Descriptor null{::open("/dev/null", O_RDONLY | O_CLOEXEC)};

@@ -15,28 +15,28 @@
 
 #include "barycert/audit.hpp"
 #include "barycert/baseline.hpp"
+#include "barycert/certificate.hpp"
+#include "barycert/check.hpp"
+#include "barycert/check_results.hpp"
 #include "barycert/choices.hpp"
+#include "barycert/defect.hpp"
+#include "barycert/environment.hpp"
 #include "barycert/family.hpp"
 #include "barycert/finding.hpp"
+#include "barycert/fix.hpp"
 #include "barycert/inverse_rules.hpp"
+#include "barycert/kernels.hpp"
+#include "barycert/measures.hpp"
+#include "barycert/not_finite.hpp"
+#include "barycert/oracle.hpp"
+#include "barycert/plc.hpp"
 #include "barycert/rule_audit.hpp"
 #include "barycert/statistics.hpp"
+#include "barycert/surface.hpp"
+#include "barycert/surface_report.hpp"
 #include "barycert/surface_rules.hpp"
 #include "barycert/threshold.hpp"
 #include "barycert/witness.hpp"
-#include "barycert/check.hpp"
-#include "barycert/certificate.hpp"
-#include "barycert/check_results.hpp"
-#include "barycert/defect.hpp"
-#include "barycert/fix.hpp"
-#include "barycert/measures.hpp"
-#include "barycert/not_finite.hpp"
-#include "barycert/surface_report.hpp"
-#include "barycert/plc.hpp"
-#include "barycert/surface.hpp"
-#include "barycert/environment.hpp"
-#include "barycert/kernels.hpp"
-#include "barycert/oracle.hpp"
 #include "tests/audit/compared_weights.hpp"
 #include "variant.hpp"
 
@@ -80,9 +80,11 @@ struct Loaded {
 
 Result<Loaded> load(const Variant& v) {
     void* const library = dlopen(v.library.c_str(), RTLD_NOW | RTLD_LOCAL);
-    if (library == nullptr) return Error{.code = "file.missing", .what = "cannot load the formulas", .file = v.library, .found = dlerror()};
+    if (library == nullptr)
+        return Error{.code = "file.missing", .what = "cannot load the formulas", .file = v.library, .found = dlerror()};
     const auto entries = reinterpret_cast<decltype(&flags_entries)>(dlsym(library, "flags_entries"));
-    if (entries == nullptr) return Error{.code = "file.missing", .what = "no formulas in the library", .file = v.library};
+    if (entries == nullptr)
+        return Error{.code = "file.missing", .what = "no formulas in the library", .file = v.library};
     int count = 0;
     const FlagsEntry* const first = entries(&count);
     return Loaded{v, {first, first + count}};
@@ -237,7 +239,10 @@ Result<Matrix> measure(const std::string& list, std::uint64_t count, std::uint64
             m.compilers.push_back(version);
     }
     if (columns.empty())
-        return Error{.code = "file.missing", .what = "no library of formulas", .file = list, .remedy = "build the target flags_variants"};
+        return Error{.code = "file.missing",
+                     .what = "no library of formulas",
+                     .file = list,
+                     .remedy = "build the target flags_variants"};
     const MeshSource none;
     for (const Family& f : all_families()) {
         if (!f.needs_mesh) m.families.push_back(f.name);

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <functional>
 
-#include "barycert/grid.hpp"
 #include "barycert/gmsh_files.hpp"
+#include "barycert/grid.hpp"
 #include "barycert/mesh_files.hpp"
 #include "barycert/plc_files.hpp"
 #include "barycert/point_files.hpp"

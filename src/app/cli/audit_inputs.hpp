@@ -7,7 +7,7 @@
 
 namespace barycert::cli {
 
-/// What the program reads meshes by, and the files that a path names: barycert all formats (all_meshes.cpp),
+/// The reader of meshes of this program, and the files that a path names: barycert all formats (all_meshes.cpp),
 /// barycert-audit those of TetGen and Triangle alone (tetgen_meshes.cpp).
 Result<Mesh> read_audited(const std::string& path, const ReadOptions& options);
 std::vector<std::string> audited_files(const std::string& path);

@@ -12,6 +12,8 @@
 #include "options.hpp"
 #ifdef BARYCERT_WITH_AUDIT
 #include "barycert/audit_search.hpp"
+#include "barycert/gaps.hpp"
+#include "barycert/mutants.hpp"
 #endif
 
 namespace barycert::cli {

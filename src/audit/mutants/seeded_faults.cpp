@@ -4,6 +4,8 @@
 #include "audit/kernels/space_formulas.hpp"
 #include "audit/kernels/tetrahedron_formulas.hpp"
 #include "barycert/audit_search.hpp"
+#include "barycert/gaps.hpp"
+#include "barycert/mutants.hpp"
 #include "barycert/weights.hpp"
 #include "core/base/ulp.hpp"
 

@@ -2,6 +2,8 @@
 
 #include "audit/search/moves.hpp"
 #include "barycert/audit_search.hpp"
+#include "barycert/gaps.hpp"
+#include "barycert/mutants.hpp"
 
 namespace barycert {
 

@@ -1,4 +1,6 @@
 #include "barycert/audit_search.hpp"
+#include "barycert/gaps.hpp"
+#include "barycert/mutants.hpp"
 
 #include <chrono>
 

@@ -19,14 +19,14 @@ struct ToBernstein {
 struct SimplexBasis {
     Reference reference;
     ToBernstein bernstein;
-    /// Of the derivative by coordinate k, coefficient i: control points `by[k]` less `by[-]`, of index `index`.
+    /// Coefficient i of the derivative by coordinate k: control points `by[k]` less `by[-]`, of index `index`.
     struct Slope {
         std::array<std::uint8_t, 4> index;
         std::size_t base;
         std::array<std::size_t, 3> by;
     };
     std::vector<Slope> slopes;
-    /// Of each multi-index of a degree: which of the next degree have one more of a corner.
+    /// For each multi-index of a degree: the indices of the next degree that have one more of a corner.
     using Level = std::vector<std::array<std::uint8_t, 4>>;
     std::vector<Level> levels;  ///< of degree order - 1, order - 2, ...
 };

@@ -128,7 +128,7 @@ private:
         }
         return all;
     }
-    /// Those of what may be left out.
+    /// Returns the corners of the simplex around the middle that may be left out.
     Corners around() const {
         const std::size_t corners = s_.reference.dimension() + 1;
         Corners at{};

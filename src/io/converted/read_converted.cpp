@@ -22,7 +22,7 @@ namespace {
 constexpr std::chrono::seconds most_time{600};
 constexpr std::size_t most_text = std::size_t{1} << 18;  // of each stream
 
-/// Of formats in HDF5 and NetCDF the first bytes tell.
+/// Returns how the first bytes of a file must look. Formats in HDF5 and NetCDF are told by them.
 base::Text beginning_of(const base::InputFile& file, const std::string& path, const std::string& format) {
     std::array<char, 4> magic{};
     const Result<std::size_t> size = file.read_at(0, magic, path);

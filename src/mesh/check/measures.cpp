@@ -3,17 +3,17 @@
 #include <cmath>
 #include <tuple>
 
-#include "barycert/check.hpp"
 #include "barycert/certificate.hpp"
+#include "barycert/check.hpp"
 #include "barycert/check_results.hpp"
 #include "barycert/defect.hpp"
+#include "barycert/environment.hpp"
 #include "barycert/fix.hpp"
 #include "barycert/measures.hpp"
 #include "barycert/not_finite.hpp"
-#include "barycert/surface_report.hpp"
 #include "barycert/plc.hpp"
 #include "barycert/surface.hpp"
-#include "barycert/environment.hpp"
+#include "barycert/surface_report.hpp"
 #include "core/base/finite.hpp"
 
 namespace barycert {

@@ -3,18 +3,18 @@
 
 #include <atomic>
 
-#include "barycert/check.hpp"
 #include "barycert/certificate.hpp"
+#include "barycert/check.hpp"
 #include "barycert/check_results.hpp"
 #include "barycert/defect.hpp"
+#include "barycert/environment.hpp"
 #include "barycert/fix.hpp"
 #include "barycert/measures.hpp"
 #include "barycert/not_finite.hpp"
-#include "barycert/surface_report.hpp"
 #include "barycert/plc.hpp"
-#include "barycert/surface.hpp"
-#include "barycert/environment.hpp"
 #include "barycert/predicates.hpp"
+#include "barycert/surface.hpp"
+#include "barycert/surface_report.hpp"
 #include "mesh/index/box_tree.hpp"
 #include "mesh/index/exact_volumes.hpp"
 #include "mesh/index/facet_contact.hpp"

@@ -1,4 +1,4 @@
-/// What a Locator is built of, and does not change any more.
+/// The part of a Locator that does not change once it is built.
 #pragma once
 
 #include <cstddef>

@@ -20,7 +20,7 @@ namespace barycert::locate {
 /// Each is made once, by one thread while others wait, and is the same whoever asks first.
 class LazyParts {
 public:
-    /// What walks need besides `index.cells[].next`.
+    /// Parts that walks need besides `index.cells[].next`.
     struct Proved {
         std::vector<Place> degenerate;
         Proof proof;

@@ -29,7 +29,7 @@ public:
                   }};
     }
 
-    /// Those of a node, by ascending cell of the mesh.
+    /// Returns the cells of a node, by ascending cell of the mesh.
     std::span<const Place> of(Place node) const { return cells_[static_cast<std::size_t>(node)]; }
     std::size_t bytes() const { return cells_.bytes(); }
 

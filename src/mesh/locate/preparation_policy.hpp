@@ -59,7 +59,7 @@ private:
     static constexpr double max_filled = 0.95;
 
     std::size_t cells() const { return index_.cell_count(); }
-    /// Of few cells an occupancy takes as long as of a certain number.
+    /// An occupancy of few cells takes as long as one of a certain number.
     double cells_of_occupancy() const { return static_cast<double>(std::max(cells(), Occupancy::least_cells)); }
 
     /// Makes the occupancy that pays for so many points outside. As measured: one takes about 100 ns without; to make

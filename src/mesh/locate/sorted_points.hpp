@@ -36,7 +36,7 @@ public:
     };
     /// By place in this order.
     const Entry* entries() const { return order_.data(); }
-    /// Those of places [first, first + count) in this order. The number of each is its place.
+    /// Sorts the points of places [first, first + count). The number of each is its place.
     void copy(std::size_t first, std::size_t count, PointRecord* to) const;
 
     /// use(i, place of point i in this order) for every point, in the order of the caller; the place of a point left

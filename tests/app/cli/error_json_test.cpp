@@ -66,7 +66,7 @@ TEST(ErrorJson, DestroysNothing) {
     EXPECT_EQ(read_file(other), "{}");
     EXPECT_EQ(run({"check", other, "--json=" + other}).code, 2);
     EXPECT_EQ(read_file(other), "{}");
-    // What an earlier run left there is out of date.
+    // A report of an earlier run is out of date.
     const std::string old = scratch.put("old.json", "{\"schema\": 1}");
     EXPECT_EQ(run({"check", "no-such-mesh.vtu", "--json", old}).code, 2);
     EXPECT_EQ(parse(read_file(old))["error"]["code"], "file.missing");

@@ -53,7 +53,8 @@ class Sink final : public TableSink {
 public:
     Sink(Written& to, std::size_t fault) : to_(to), fault_(fault) {}
     Status write(const TableView& rows) override {
-        if (to_.cells.size() + rows.row_count() > fault_) return Error{.code = "file.changed", .what = "fault of the sink"};
+        if (to_.cells.size() + rows.row_count() > fault_)
+            return Error{.code = "file.changed", .what = "fault of the sink"};
         to_.points.insert(to_.points.end(), rows.points.begin(), rows.points.end());
         to_.cells.insert(to_.cells.end(), rows.cells.begin(), rows.cells.end());
         to_.values.insert(to_.values.end(), rows.values.begin(), rows.values.end());

@@ -7,33 +7,35 @@
 #include <gtest/gtest.h>
 
 #include "barycert/audit.hpp"
+#include "barycert/audit_report.hpp"
+#include "barycert/audit_search.hpp"
 #include "barycert/baseline.hpp"
+#include "barycert/certificate.hpp"
+#include "barycert/check.hpp"
+#include "barycert/check_results.hpp"
 #include "barycert/choices.hpp"
+#include "barycert/defect.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/error_report.hpp"
 #include "barycert/family.hpp"
 #include "barycert/finding.hpp"
+#include "barycert/fix.hpp"
+#include "barycert/gaps.hpp"
 #include "barycert/inverse_rules.hpp"
+#include "barycert/kernels.hpp"
+#include "barycert/measures.hpp"
+#include "barycert/mutants.hpp"
+#include "barycert/not_finite.hpp"
+#include "barycert/oracle.hpp"
+#include "barycert/plc.hpp"
+#include "barycert/report.hpp"
 #include "barycert/rule_audit.hpp"
 #include "barycert/statistics.hpp"
+#include "barycert/surface.hpp"
+#include "barycert/surface_report.hpp"
 #include "barycert/surface_rules.hpp"
 #include "barycert/threshold.hpp"
 #include "barycert/witness.hpp"
-#include "barycert/check.hpp"
-#include "barycert/certificate.hpp"
-#include "barycert/check_results.hpp"
-#include "barycert/defect.hpp"
-#include "barycert/fix.hpp"
-#include "barycert/measures.hpp"
-#include "barycert/not_finite.hpp"
-#include "barycert/surface_report.hpp"
-#include "barycert/plc.hpp"
-#include "barycert/surface.hpp"
-#include "barycert/environment.hpp"
-#include "barycert/kernels.hpp"
-#include "barycert/oracle.hpp"
-#include "barycert/audit_report.hpp"
-#include "barycert/audit_search.hpp"
-#include "barycert/error_report.hpp"
-#include "barycert/report.hpp"
 #include "check_meshes.hpp"
 #include "schema_tables.hpp"
 #include "small_audit.hpp"
@@ -87,7 +89,8 @@ void check_reports(Schema& schema) {
 
 /// A failure with something of everything, and one of little.
 void failures(Schema& schema) {
-    Error full = about("job.points", file_error("file.truncated", "a.csv", "the \xff file ends", "more", "less", "copy it"));
+    Error full =
+        about("job.points", file_error("file.truncated", "a.csv", "the \xff file ends", "more", "less", "copy it"));
     full.line = 3;
     schema.check("Failure", Json::parse(error_json(full, "--points")), "failure");
     schema.check("Failure", Json::parse(error_json({.code = "memory.short", .what = "too little"})), "failure");

@@ -7,6 +7,8 @@
 #include <filesystem>
 
 #include "barycert/audit_search.hpp"
+#include "barycert/gaps.hpp"
+#include "barycert/mutants.hpp"
 #include "tests/audit/audit_helpers.hpp"
 
 namespace barycert::audit {

@@ -1,6 +1,8 @@
 // The mutation score of the families: sound kernels are sound, mutants differ from them, and every one is caught.
 
+#include "barycert/mutants.hpp"
 #include "barycert/audit_search.hpp"
+#include "barycert/gaps.hpp"
 
 #include <gtest/gtest.h>
 

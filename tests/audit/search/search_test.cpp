@@ -1,6 +1,8 @@
 // The worst-case search: what it must find, that it repeats, that it ends, that plain witnesses show what they say.
 
 #include "barycert/audit_search.hpp"
+#include "barycert/gaps.hpp"
+#include "barycert/mutants.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

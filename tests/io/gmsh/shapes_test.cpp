@@ -5,17 +5,17 @@
 #include <map>
 #include <set>
 
-#include "barycert/check.hpp"
 #include "barycert/certificate.hpp"
+#include "barycert/check.hpp"
 #include "barycert/check_results.hpp"
 #include "barycert/defect.hpp"
 #include "barycert/fix.hpp"
 #include "barycert/measures.hpp"
 #include "barycert/not_finite.hpp"
-#include "barycert/surface_report.hpp"
 #include "barycert/plc.hpp"
-#include "barycert/surface.hpp"
 #include "barycert/sampler.hpp"
+#include "barycert/surface.hpp"
+#include "barycert/surface_report.hpp"
 #include "tests/io/gmsh/msh_files.hpp"
 
 namespace barycert::testing {

@@ -1,15 +1,15 @@
 // A copy with all cells positive: only the order of corners changes, and what depends on it.
 
-#include "barycert/check.hpp"
 #include "barycert/certificate.hpp"
+#include "barycert/check.hpp"
 #include "barycert/check_results.hpp"
 #include "barycert/defect.hpp"
 #include "barycert/fix.hpp"
 #include "barycert/measures.hpp"
 #include "barycert/not_finite.hpp"
-#include "barycert/surface_report.hpp"
 #include "barycert/plc.hpp"
 #include "barycert/surface.hpp"
+#include "barycert/surface_report.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,16 +1,16 @@
 // Cells of other shapes: repaired before they are cut, counted as the file has them, and told where they cannot be cut.
 #include <gtest/gtest.h>
 
-#include "barycert/check.hpp"
 #include "barycert/certificate.hpp"
+#include "barycert/check.hpp"
 #include "barycert/check_results.hpp"
 #include "barycert/defect.hpp"
 #include "barycert/fix.hpp"
 #include "barycert/measures.hpp"
 #include "barycert/not_finite.hpp"
-#include "barycert/surface_report.hpp"
 #include "barycert/plc.hpp"
 #include "barycert/surface.hpp"
+#include "barycert/surface_report.hpp"
 #include "mesh/pulling.hpp"
 #include "tests/mesh/shaped_mesh.hpp"
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "barycert/gmsh_files.hpp"
+#include "barycert/locator.hpp"
 #include "barycert/mesh_files.hpp"
 #include "barycert/plc_files.hpp"
 #include "barycert/point_files.hpp"
@@ -14,7 +15,6 @@
 #include "barycert/table_files.hpp"
 #include "barycert/tetgen_files.hpp"
 #include "barycert/vtk_files.hpp"
-#include "barycert/locator.hpp"
 #include "core/base/text.hpp"
 #include "tests/limits.hpp"
 #include "tests/mesh/check/meshes.hpp"

@@ -6,18 +6,18 @@
 #include <algorithm>
 #include <limits>
 
-#include "barycert/check.hpp"
 #include "barycert/certificate.hpp"
+#include "barycert/check.hpp"
 #include "barycert/check_results.hpp"
 #include "barycert/defect.hpp"
+#include "barycert/environment.hpp"
 #include "barycert/fix.hpp"
+#include "barycert/locator.hpp"
 #include "barycert/measures.hpp"
 #include "barycert/not_finite.hpp"
-#include "barycert/surface_report.hpp"
 #include "barycert/plc.hpp"
 #include "barycert/surface.hpp"
-#include "barycert/environment.hpp"
-#include "barycert/locator.hpp"
+#include "barycert/surface_report.hpp"
 #include "tests/mesh/locate/points.hpp"
 
 namespace barycert::testing {

@@ -1,17 +1,17 @@
 // Cells of all shapes, located and sampled through their parts, against planes in integers.
 #include <gtest/gtest.h>
 
-#include "barycert/check.hpp"
 #include "barycert/certificate.hpp"
+#include "barycert/check.hpp"
 #include "barycert/check_results.hpp"
 #include "barycert/defect.hpp"
 #include "barycert/fix.hpp"
 #include "barycert/measures.hpp"
 #include "barycert/not_finite.hpp"
-#include "barycert/surface_report.hpp"
 #include "barycert/plc.hpp"
-#include "barycert/surface.hpp"
 #include "barycert/sampler.hpp"
+#include "barycert/surface.hpp"
+#include "barycert/surface_report.hpp"
 #include "tests/mesh/shaped_mesh.hpp"
 
 namespace barycert::test {

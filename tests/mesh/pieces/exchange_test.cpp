@@ -76,8 +76,8 @@ TEST(Exchanges, TellTheErrorOfTheLowestRankToAll) {
             EXPECT_EQ(some.error().message(), size == 1 ? "of 0" : "rank " + low + ": of " + low);
             const Status memory = exchange.everywhere([]() -> Status { throw std::bad_alloc(); });
             EXPECT_EQ(memory.error().message(), size == 1 ? "out of memory" : "rank 0: out of memory");
-            const Status lengthy =
-                exchange.everywhere([]() -> Status { return Error{.code = "mesh.inconsistent", .what = std::string(5000, 'x')}; });
+            const Status lengthy = exchange.everywhere(
+                []() -> Status { return Error{.code = "mesh.inconsistent", .what = std::string(5000, 'x')}; });
             EXPECT_FALSE(lengthy.has_value());
         });
     }

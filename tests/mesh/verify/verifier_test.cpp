@@ -6,8 +6,8 @@
 #include <limits>
 #include <optional>
 
-#include "barycert/grid.hpp"
 #include "barycert/gmsh_files.hpp"
+#include "barycert/grid.hpp"
 #include "barycert/mesh_files.hpp"
 #include "barycert/plc_files.hpp"
 #include "barycert/point_files.hpp"
@@ -15,8 +15,8 @@
 #include "barycert/surface_files.hpp"
 #include "barycert/table_files.hpp"
 #include "barycert/tetgen_files.hpp"
-#include "barycert/vtk_files.hpp"
 #include "barycert/verify.hpp"
+#include "barycert/vtk_files.hpp"
 #include "core/base/random.hpp"
 
 namespace barycert::testing {

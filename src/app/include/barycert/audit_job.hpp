@@ -1,4 +1,10 @@
 /// Audits by names of files: of meshes, an earlier audit. Who calls with read_mesh links barycert::io, too.
+///
+/// Example:
+///
+///     const AuditJob job{.meshes = {{"hole", "data/meshes/cube-hole"}}, .kernels = {.names = {"tetrahedron.*"}}};
+///     const PreparedAudit audit = prepare_audit(job).value();
+///     const AuditReport report = run_audit(audit.options, audit.meshes).value();
 #pragma once
 
 #include <functional>
@@ -19,10 +25,12 @@
 #include "barycert/family.hpp"
 #include "barycert/finding.hpp"
 #include "barycert/fix.hpp"
+#include "barycert/gaps.hpp"
 #include "barycert/inverse_rules.hpp"
 #include "barycert/kernels.hpp"
 #include "barycert/measures.hpp"
 #include "barycert/mesh_files.hpp"
+#include "barycert/mutants.hpp"
 #include "barycert/not_finite.hpp"
 #include "barycert/oracle.hpp"
 #include "barycert/plc.hpp"

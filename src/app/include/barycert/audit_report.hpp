@@ -1,8 +1,15 @@
 /// Reports of audits as text, JSON and pictures; the catalogue and the families likewise.
+///
+/// Example:
+///
+///     const AuditReport report = run_audit({.kernels = kernels_matching("*"), .families = all_families()},
+///     {}).value(); const std::string json = audit_json(report), table = audit_text(report, {});
 #pragma once
 
 #include "barycert/audit_pictures.hpp"
 #include "barycert/audit_search.hpp"
+#include "barycert/gaps.hpp"
+#include "barycert/mutants.hpp"
 #include "barycert/report.hpp"
 
 namespace barycert {

@@ -1,5 +1,12 @@
 /// The job that checks a mesh, and repairs it if asked; or a surface, or a PLC (.poly, .smesh): then options of meshes
 /// are errors.
+///
+/// Example:
+///
+///     CheckJob job;
+///     job.mesh = "part.1";
+///     job.fix = "fixed.vtu";
+///     const bool good = check_files(job).value().certified();
 #pragma once
 
 #include <optional>

@@ -1,4 +1,13 @@
 /// The job that makes iso-surfaces, iso-lines and slices of meshes.
+///
+/// Example:
+///
+///     ContourJob job;
+///     job.mesh = "part.1";
+///     job.field = "T";
+///     job.value = 20;
+///     job.output = "level.vtp";
+///     const std::uint64_t triangles = contour_files(job).value().parts;
 #pragma once
 
 #include <array>

@@ -1,7 +1,11 @@
 /// An error as JSON, as programs write it in place of a report: Failure in doc/json.md.
 ///
-///     const Result<Mesh> mesh = read_mesh(path);
-///     if (!mesh) std::cout << error_json(mesh.error());
+/// Example:
+///
+///     #include <cstdio>
+///     #include "barycert/mesh_files.hpp"
+///     const Result<Mesh> mesh = read_mesh("part.1");
+///     if (!mesh) std::puts(error_json(mesh.error()).c_str());
 #pragma once
 
 #include <string>

@@ -3,6 +3,15 @@
 /// A job names its files and options; one call reads the mesh and its fields, checks the mesh where that pays, streams
 /// points through a Sampler and writes rows, grids, pictures or meshes. Memory is that of the mesh and some blocks of
 /// points. Output files appear whole or not at all; rows on stdout cannot be taken back.
+///
+/// Example:
+///
+///     #include <cstdio>
+///     #include "barycert/sample_job.hpp"
+///     SampleJob job;
+///     job.mesh = "part.1";
+///     job.field_files = {{.of = FieldFile::Of::points, .name = "T", .path = "temperature.csv", .column = "T"}};
+///     job.progress = [](const JobProgress& now) { std::puts(std::string(now.stage).c_str()); };
 #pragma once
 
 #include <cstdint>

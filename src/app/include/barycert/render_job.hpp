@@ -1,4 +1,13 @@
 /// The job that draws pictures.
+///
+/// Example:
+///
+///     RenderJob job;
+///     job.picture = PictureKind::mesh;
+///     job.mesh = "part.1";
+///     job.field = "T";
+///     job.output = "part.png";
+///     const RenderReport report = render_files(job).value();
 #pragma once
 
 #include <array>

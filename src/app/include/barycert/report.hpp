@@ -1,4 +1,13 @@
 /// Reports of jobs as text, JSON and HTML, and for continuous integration. Functions return strings, and write nothing.
+///
+/// Example:
+///
+///     #include "barycert/sample_job.hpp"
+///     SampleJob job;
+///     job.mesh = "part.1";
+///     job.points = "points.csv";
+///     job.output = "rows.csv";
+///     const std::string text = sample_text(sample_files(job).value(), false);
 #pragma once
 
 #include "barycert/certificate.hpp"

@@ -1,4 +1,12 @@
 /// Jobs that sample: fields at points, on a grid, at the nodes of another mesh.
+///
+/// Example:
+///
+///     SampleJob job;
+///     job.mesh = "part.1";
+///     job.points = "points.csv";
+///     job.output = "rows.csv";
+///     const SampleReport report = sample_files(job).value();
 #pragma once
 
 #include <array>

@@ -1,4 +1,12 @@
 /// The job that holds the results that some tool wrote into a file against the exact ones.
+///
+/// Example:
+///
+///     VerifyJob job;
+///     job.mesh = "part.1";
+///     job.results = "probed.csv";
+///     job.limits = {parse_verify_limit("wrong_value>10").value()};
+///     const bool failed = !verify_files(job).value().exceeded().empty();
 #pragma once
 
 #include <array>

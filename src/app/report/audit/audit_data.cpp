@@ -3,7 +3,7 @@
 #include "app/report/audit/audit_words.hpp"
 #include "audit/asking.hpp"
 #include "audit/json_members.hpp"
-#include "barycert/finding_severity.hpp"
+#include "barycert/finding.hpp"
 
 namespace barycert {
 
@@ -83,7 +83,8 @@ Json report::audit_data(const AuditReport& r) {
                   list(r.verdicts, [](Verdict v) { return name(v); }), MEMBERS(r, curved, cases), "regions", regions,
                   "oracles", oracles_json(r.oracle, r.oracles), MEMBERS(r, seconds), "families",
                   list(r.families, family_json), "kernels",
-                  list(r.kernels, [&](const KernelResult& k) { return result_json(r, k); }), "witnesses", witnesses, "classes", classes_json());
+                  list(r.kernels, [&](const KernelResult& k) { return result_json(r, k); }), "witnesses", witnesses,
+                  "classes", classes_json());
 }
 
 CiReport audit_outcomes(const AuditReport& report, const std::vector<Threshold>& rules,

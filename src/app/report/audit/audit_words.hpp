@@ -69,7 +69,7 @@ std::string oracle_line(const OracleCounts& o);
 /// Adds the measurements of other programs to a page: the flags matrix, the league of systems.
 void tell_others(Document& d, const std::vector<OtherResults>& others);
 
-// What programs read.
+// Data for programs.
 
 Json kernel_json(const Kernel& kernel);
 Json family_json(const Family& family);

@@ -1,4 +1,4 @@
-// What kernels and families there are, for people and programs.
+// Lists of kernels and families, for people and programs.
 
 #include "app/report/audit/audit_words.hpp"
 

@@ -335,7 +335,7 @@ std::string surface_figure(const CheckReport& r, const Surface& surface) {
         marked ? " Red: triangles with defects." : "");
 }
 
-/// What a report is written of, beside itself.
+/// Arguments of a report, beside itself.
 struct CheckSubject {
     const Mesh& mesh;  ///< of which pictures are drawn
     const std::string& name;
@@ -410,7 +410,7 @@ std::string check_text(const CheckReport& report, const Mesh& mesh, const std::s
 
 std::string check_json(const CheckReport& report, const std::string& name, const Environment& environment,
                        const FixedMesh* fixed) {
-    // Of the mesh programs are told nothing that is not in the report.
+    // Programs are told nothing of the mesh that is not in the report.
     return written_json([&, none = Mesh()] { return check_document(report, {none, name, environment, fixed}); }, 1);
 }
 

@@ -3,7 +3,7 @@
 
 #include "app/report/check/check_words.hpp"
 #include "app/report/common/document.hpp"
-#include "barycert/defect_severity.hpp"
+#include "barycert/defect.hpp"
 
 namespace barycert {
 

@@ -1,4 +1,4 @@
-/// What programs read of a check: the data of its document.
+/// Data of a check for programs: those of its document.
 #pragma once
 
 #include <array>
@@ -11,8 +11,8 @@
 
 namespace barycert::report {
 
-/// Of the absolute values of each of cell_measures, over all cells: for people and programs computed once. None of
-/// surfaces.
+/// Distributions of the absolute values of each of cell_measures, over all cells: computed once for people and
+/// programs. Surfaces have none.
 class MeasureDistributions {
 public:
     explicit MeasureDistributions(const CheckReport& report);

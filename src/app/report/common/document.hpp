@@ -185,7 +185,7 @@ std::string terminal_text(const Document& document, bool colour);
 /// One page of HTML, self-contained and well-formed XML, for screens of any width, light and dark, and for paper.
 std::string page_text(const Document& document);
 
-// What public functions return: a document that fill() makes, as text, JSON and page. All in the exact environment.
+// Results of public functions: a document that fill() makes, as text, JSON and page. All in the exact environment.
 
 template <class Fill>
 std::string written_text(const Fill& fill, bool colour) {

@@ -1,6 +1,13 @@
 /// The audit: runs kernels over families of cases and compares each answer with the oracle's.
 ///
 /// Memory does not grow with the number of cases; the result, times aside, does not depend on the number of threads.
+///
+/// Example:
+///
+///     AuditOptions options{.kernels = kernels_matching("triangle.*"), .families = all_families(), .count = 1000};
+///     const AuditReport report = run_audit(options, {}).value();
+///     const KernelResult& worst = report.kernels.front();
+///     const Witness* witness = worst_witness(worst);  // null: no finding
 #pragma once
 
 #include <array>

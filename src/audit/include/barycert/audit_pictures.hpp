@@ -1,5 +1,10 @@
 /// Pictures of an audit: signs around a triangle, kernels over the cells of a mesh, drift along triangles, and rules
 /// for texels.
+///
+/// Example:
+///
+///     const std::vector<SignPicture> pictures = sign_pictures(kernels_matching("triangle.*"));
+///     const std::uint64_t wrong = pictures.back().wrong;  // points whose sign is not the exact one
 #pragma once
 
 #include "barycert/audit.hpp"

@@ -2,6 +2,13 @@
 ///
 /// The same seed, count, families and meshes give the same cases, so that figures are compared exactly: one wrong case
 /// more is one more. Audits of different cases are not compared.
+///
+/// Example:
+///
+///     const AuditOptions options{.kernels = kernels_matching("*"), .families = all_families()};
+///     const Baseline before = read_baseline("before.json").value();
+///     check_comparable(before, options, {}).value();
+///     const BaselineComparison now = compare_with_baseline(run_audit(options, {}).value(), before).value();
 #pragma once
 
 #include <array>

@@ -1,4 +1,9 @@
 /// Kernels and families by their names.
+///
+/// Example:
+///
+///     const std::vector<Kernel> kernels = choose_kernels({.names = {"triangle.*"}}).value();
+///     const std::vector<Family> families = choose_families({}).value();  // all
 #pragma once
 
 #include <optional>

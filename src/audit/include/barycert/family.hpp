@@ -1,4 +1,11 @@
 /// Families: recipes for cases, and the meshes that some of them draw simplices from.
+///
+/// Example:
+///
+///     #include <cstdio>
+///     for (const Family& family : families_matching("*sliver*")) {
+///         if (family.applies_to(Simplex::tetrahedron)) std::puts(family.tests.c_str());
+///     }
 #pragma once
 
 #include <cstdint>

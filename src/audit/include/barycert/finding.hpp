@@ -1,4 +1,9 @@
 /// Findings: what an audit can find wrong with one answer of a kernel, compared with the oracle's.
+///
+/// Example:
+///
+///     const std::optional<Finding> finding = finding_named("false_inside");
+///     const std::string_view meaning = finding_texts[static_cast<std::size_t>(*finding)].meaning;
 #pragma once
 
 #include <algorithm>
@@ -9,6 +14,7 @@
 #include <string_view>
 
 #include "barycert/oracle.hpp"
+#include "barycert/severity.hpp"
 
 namespace barycert {
 
@@ -64,6 +70,13 @@ constexpr std::string_view name(Finding f) {
 constexpr std::optional<Finding> finding_named(std::string_view text) {
     const auto at = std::ranges::find(finding_texts, text, &FindingText::name);
     return at == finding_texts.end() ? std::nullopt : std::optional(static_cast<Finding>(at - finding_texts.begin()));
+}
+
+/// Returns warning for what a kernel does besides answering and its answer can be right; error for all else.
+constexpr Severity severity(Finding finding) {
+    const bool beside =
+        finding == Finding::forked || finding == Finding::changed_environment || finding == Finding::printed;
+    return beside ? Severity::warning : Severity::error;
 }
 
 /// One answer of a kernel, compared with the oracle's.

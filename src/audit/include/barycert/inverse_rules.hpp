@@ -3,6 +3,14 @@
 ///
 /// Newton's method as it is in use is held against barycert's own maps, whose answers are proved
 /// (CellInterpolation::multilinear); a test holds these against Newton's method in 100 digits.
+///
+/// Example:
+///
+///     const InverseCase c = make_inverse_case(inverse_families().front(), 12, 1, 0);
+///     const ExactInverse exact = exact_inverse(c);
+///     for (const InverseRule& rule : inverse_rules()) {
+///         if (rule.type == c.type) rule.answer(c);
+///     }
 #pragma once
 
 #include <array>

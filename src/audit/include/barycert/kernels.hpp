@@ -3,6 +3,11 @@
 /// Input: the vertices of one simplex and a point, as doubles. Output: one weight a vertex, or the kernel's own
 /// statement that the simplex is degenerate. Kernels are what the audit puts to the test: the plain ones are written as
 /// the literature writes them, faults included, and nothing in barycert relies on them; `*.exact` call weights.hpp.
+///
+/// Example:
+///
+///     const std::vector<Kernel> kernels = kernels_matching("triangle.*");
+///     const Result<Kernel> own = load_contained_kernel("./libmykernel.so");  // in a process of its own
 #pragma once
 
 #include <memory>

@@ -16,6 +16,12 @@
 /// meets the triangle with the vertices (x_i w_i, y_i w_i, w_i) at the weights m_i / m, m_i = n_i w_j w_k, m = sum m_i.
 /// Where d or m is zero (then the ray is parallel to the triangle's plane) there are none: the case counts as
 /// degenerate.
+///
+/// Example:
+///
+///     const Case c{.simplex = Simplex::triangle, .vertices = {0, 0, 1, 0, 0, 1}, .point = {0.5, 0.5}};
+///     const OracleAnswer exact = ask_oracle(c);
+///     const bool on_edge = exact.region == Region::boundary;
 #pragma once
 
 #include <limits>

@@ -1,4 +1,13 @@
 /// Audits of rules that answer cases of their own. A tally has what a rule answers to the cases of a family.
+///
+/// Example:
+///
+///     #include <cstdio>
+///     #include "barycert/surface_rules.hpp"
+///     SurfaceAudit audit{.count = 1000};
+///     audit_surfaces(audit);
+///     for (const auto& result : audit.results) std::printf("%s %lu\n", result.rule.name.c_str(),
+///     result.total.wrong_cases());
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,10 @@
 /// Statistics of many answers: counts of findings, histograms of errors, the worst cases.
+///
+/// Example:
+///
+///     LogHistogram ulps;
+///     for (const double error : {0.5, 0.5, 3.0}) ulps.add(error);
+///     const double most = ulps.quantile(0.99);
 #pragma once
 
 #include <algorithm>

@@ -3,6 +3,14 @@
 ///
 /// Rules that are in use are held against CGAL's exact answers, on cases where such code is known to fail; barycert's
 /// own stand among them.
+///
+/// Example:
+///
+///     const SurfaceFamily& family = surface_families().front();
+///     const SurfaceCase c = make_surface_case(family, 1, 0);
+///     for (const SurfaceRule& rule : surface_rules()) {
+///         if (rule.question == family.question) rule.answer(c);
+///     }
 #pragma once
 
 #include <array>

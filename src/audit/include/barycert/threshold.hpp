@@ -1,4 +1,10 @@
 /// Thresholds: figures of a kernel above which an audit fails.
+///
+/// Example:
+///
+///     const AuditReport report = run_audit({.kernels = kernels_matching("*"), .families = all_families()},
+///     {}).value(); const std::vector<Threshold> rules{parse_threshold("false_inside").value(), {"wrong_cases", 100}};
+///     const bool failed = !violations(report, rules).empty();
 #pragma once
 
 #include <string>

@@ -1,4 +1,12 @@
 /// Witnesses: cases that show a finding, their files, and what kernels answer to them today.
+///
+/// Example:
+///
+///     #include <cstdio>
+///     for (const Witness& witness : read_witnesses("witnesses.json").value()) {
+///         const Replay replay = replay_witness(witness, kernels_matching("*"));
+///         if (!replay.not_reproduced.empty()) std::puts(replay.not_reproduced.c_str());
+///     }
 #pragma once
 
 #include <array>

@@ -30,6 +30,13 @@
 ///
 /// How it works: filter-inl.hpp (signs), refinement-inl.hpp (weights and values) and exact_tier.hpp (what these leave
 /// undecided) prove their bounds where they use them; NOTES.md has measurements, and what was tried.
+///
+/// Example:
+///
+///     const double tetrahedron[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, point[] = {0.25, 0.25, 0.25};
+///     const double values[] = {1, 2, 3, 4};
+///     const Region region = weight_signs(Simplex::tetrahedron, tetrahedron, point).region();          // interior
+///     const double value = interpolate(Simplex::tetrahedron, tetrahedron, point, values).value().value;  // 2.5
 #pragma once
 
 #include "barycert/environment.hpp"  // IWYU pragma: export

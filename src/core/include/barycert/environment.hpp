@@ -22,6 +22,15 @@
 /// by check_environment.
 ///
 /// Exception flags are not preserved.
+///
+/// Example:
+///
+///     #include <cfenv>
+///     #include "barycert/predicates.hpp"
+///     std::fesetround(FE_UPWARD);
+///     const double a[] = {0, 0}, b[] = {1, 0}, c[] = {0, 1};
+///     const Sign sign = orient2d(a, b, c);                     // as in any other environment
+///     const Status exact = check_environment(measure_environment());  // an Error that names the rounding mode
 #pragma once
 
 #include <cfenv>

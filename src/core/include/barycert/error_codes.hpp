@@ -1,7 +1,12 @@
 /// The codes of errors: stable names by which a program decides what to do. doc/errors.md tells what each means.
 ///
-///     if (!mesh && mesh.error().code == "file.missing") ask_for_another_name();
-///     std::cerr << mesh.error().code.name();
+/// Example:
+///
+///     #include "barycert/result.hpp"
+///     const auto describe = [](const Error& error) -> std::string_view {
+///         if (error.code == "file.missing") return "no such file";
+///         return error.code.name();
+///     };
 #pragma once
 
 #include <algorithm>
@@ -13,7 +18,7 @@ namespace barycert {
 
 /// All codes, in the order of doc/errors.md. A code is never renamed; one that is no longer used stays here.
 inline constexpr auto error_codes = std::to_array<std::string_view>({
-    // What a caller passes in memory.
+    // Arguments in memory.
     "argument.not-finite",
     "argument.size",
     "argument.type",

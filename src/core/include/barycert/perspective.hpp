@@ -20,6 +20,13 @@
 /// 1/Z < 0, likewise outside only, the plane is met behind the eye: the answers are those of that point. An attribute
 /// that is NaN or infinite makes its value NaN, unless its weight is exactly zero. A coordinate that is not finite, or
 /// a w that is not a finite number above zero, is an Error: clip before the division.
+///
+/// Example:
+///
+///     const double window[] = {0, 0, 1, 8, 0, 2, 0, 8, 4};  // x, y, w of each vertex
+///     const double pixel[] = {2, 2}, red[] = {0, 1, 1};
+///     const double depth = perspective_depth(window, pixel).value().value;
+///     const double shade = perspective_value(window, pixel, red).value().value;
 #pragma once
 
 #include "barycert/weights.hpp"

@@ -44,6 +44,14 @@
 /// A flat simplex has no circle or sphere: the product is zero, the sign alone that of the determinant. For three
 /// distinct points on a line it changes from one side of the line to the other; likewise insphere and the plane of a,
 /// b, c, d, but it is zero everywhere if these lie on one circle or line. Both are zero if two vertices coincide.
+///
+/// Example:
+///
+///     const double a[] = {0, 0}, b[] = {1, 0}, c[] = {0, 1}, p[] = {0.3, 0.3};
+///     const Sign turn = orient2d(a, b, c);                      // positive: counter-clockwise
+///     const double triangle[] = {0, 0, 1, 0, 0, 1};
+///     const WeightSigns signs = weight_signs(Simplex::triangle, triangle, p);
+///     const bool inside = signs.region() == Region::interior;
 #pragma once
 
 #include <bit>

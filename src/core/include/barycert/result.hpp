@@ -1,4 +1,13 @@
 /// One result type for error codes and for exceptions. The library never prints and never exits.
+///
+/// Example:
+///
+///     const auto half = [](int n) -> Result<int> {
+///         if (n % 2 != 0) return Error{.code = "argument.value", .what = "not even", .found = std::to_string(n)};
+///         return n / 2;
+///     };
+///     const Result<int> r = half(3);
+///     const std::string text = r ? std::to_string(*r) : r.error().message();
 #pragma once
 
 #include <cstddef>

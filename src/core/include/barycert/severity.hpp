@@ -1,4 +1,8 @@
 /// How bad a defect of a mesh, a finding of an audit or a verdict on a row of results is. doc/defects.md lists all.
+///
+/// Example:
+///
+///     const std::string_view word = name(Severity::warning);  // "warning"
 #pragma once
 
 #include <cstdint>

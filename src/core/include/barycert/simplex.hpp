@@ -2,6 +2,12 @@
 ///
 /// Coordinates are doubles in whatever unit the mesh uses. Vertices are stored vertex after vertex:
 /// vertex i of a simplex in d-space is v[d*i] ... v[d*i + d-1].
+///
+/// Example:
+///
+///     Case c{.simplex = Simplex::triangle, .vertices = {0, 0, 1, 0, 0, 1}, .point = {0.3, 0.3}, .values = {1, 2, 3}};
+///     for (int i = 0; i < vertex_count(c.simplex); ++i) c.vertex(i, 0) += 10;
+///     const std::string_view what = name(c.simplex);  // "triangle"
 #pragma once
 
 #include <array>

@@ -24,6 +24,13 @@
 /// Rounded weights need not sum to 1, nor give back the point they came from; their rounded combination with nodal
 /// values is not the value. On segment and triangle3d V2 holds for points on the shared edge or vertex itself, not for
 /// those projected to it.
+///
+/// Example:
+///
+///     const double triangle[] = {0, 0, 3, 0, 0, 3}, point[] = {1, 1}, values[] = {1, 2, 4};
+///     const std::array<double, 4> w = barycentric_weights(Simplex::triangle, triangle, point).value().weights;  // 1/3
+///     each const double value = interpolate(Simplex::triangle, triangle, point, values).value().value; const Gradient
+///     slope = gradient(Simplex::triangle, triangle, values).value();
 #pragma once
 
 #include "barycert/predicates.hpp"

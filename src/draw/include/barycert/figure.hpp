@@ -5,6 +5,12 @@
 /// Surfaces in space are lit: their colour is multiplied by 0.35 to 1; light falls from the upper left behind the
 /// viewer, on both sides of a triangle (Lambert). Surfaces in the plane are drawn from above, without light, on axes of
 /// one scale.
+///
+/// Example:
+///
+///     Figure figure;
+///     figure.surfaces.push_back({.points = std::array{0.0, 0.0, 1.0, 0.0, 0.0, 1.0}, .triangles = std::array{0, 1,
+///     2}}); write_figure("triangle.svg", figure, {}).value();
 #pragma once
 
 #include "barycert/scene.hpp"

@@ -14,6 +14,12 @@
 /// Why R1: the rule moves a centre on a side right by e and down by e * e, for an e > 0 too small for anything else to
 /// change. The moved point lies on no line through two distinct points with finite coordinates, so that of triangles
 /// that partition its surroundings exactly one holds it, in its interior.
+///
+/// Example:
+///
+///     Image image = blank_image(64, 64, {255, 255, 255, 255}).value();
+///     image.set_pixel(3, 3, {255, 0, 0, 255});
+///     write_png("dot.png", image).value();
 #pragma once
 
 #include "barycert/weights.hpp"

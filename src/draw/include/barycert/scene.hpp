@@ -11,6 +11,11 @@
 /// A colour is three numbers from 0 to 1 in sRGB as it is stored, and is interpolated so; below 0 and above 1 it is
 /// drawn as these. A texture's colour is multiplied by the vertices' colour if there are both. Nothing is blended: a
 /// pixel takes over the opacity of its texel.
+///
+/// Example:
+///
+///     const Scene scene = read_scene("scene.json").value();
+///     write_png("scene.png", render(scene).value()).value();
 #pragma once
 
 #include "barycert/raster.hpp"

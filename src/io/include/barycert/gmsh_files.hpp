@@ -1,4 +1,11 @@
 /// Gmsh's .msh files: meshes in and out. read_mesh and write_mesh come here for what ends in .msh.
+///
+/// Example:
+///
+///     #include <cstdio>
+///     for (const GmshStep& step : gmsh_steps("part.msh").value()) std::printf("%s %g\n", step.field.c_str(),
+///     step.time); const Mesh mesh = read_gmsh("part.msh", {.step = 3}).value(); write_gmsh(mesh, "plain.msh", {.binary
+///     = false}).value();
 #pragma once
 
 #include <cstdint>

@@ -2,6 +2,13 @@
 ///
 /// A row is a point and a cell that holds it, or -1; in 3D it takes 29 bytes. doc/formats.md has the format. A change
 /// within 8 bytes of a file is always detected, any other is missed once in 2^64.
+///
+/// Example:
+///
+///     const Mesh mesh{.dimension = 2, .points = {0, 0, 1, 0, 0, 1}, .cells = {0, 1, 2}};
+///     MapReader map = MapReader::open("points.map", mesh).value();  // an Error where it is of another mesh
+///     Table rows;
+///     while (map.read(1000, rows).value() != 0) rows = {};
 #pragma once
 
 #include "barycert/locator.hpp"

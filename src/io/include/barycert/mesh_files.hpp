@@ -1,4 +1,11 @@
 /// Meshes in any format.
+///
+/// Example:
+///
+///     #include <cstdio>
+///     const Result<Mesh> mesh = read_mesh("part.1");  // part.1.node, part.1.ele
+///     if (!mesh) std::puts(mesh.error().message().c_str());
+///     if (mesh) write_mesh(*mesh, "part.vtu").value();
 #pragma once
 
 #include <string>

@@ -4,6 +4,12 @@
 /// numbers and crash on truncated files. In: .poly .smesh (nodes in the file or in STEM.node); .off, .obj; .stl and
 /// .ply, text or binary. Memory stays within a small multiple of the file's size. A number with which the file ends is
 /// taken, and told, for more digits may have been cut. Indices in memory are 0-based.
+///
+/// Example:
+///
+///     #include "barycert/check.hpp"
+///     const Plc plc = read_plc("part.poly").value();
+///     const CheckReport report = check_plc(plc);
 #pragma once
 
 #include <array>

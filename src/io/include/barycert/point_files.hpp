@@ -20,6 +20,12 @@
 /// .node  TetGen's and Triangle's grammar, see io/tetgen/tetgen_reader.cpp. Columns: attribute0, attribute1, ..., and
 ///        marker. All of it is in memory.
 /// meshes Any file that read_mesh takes. Columns: the fields of nodes, and marker. All of it is in memory.
+///
+/// Example:
+///
+///     std::unique_ptr<PointSource> points = open_points("points.csv", 3).value();
+///     std::vector<double> block;
+///     while (points->read(1000, block).value() != 0) block.clear();  // x, y, z of up to 1000 points
 #pragma once
 
 #include <cstddef>

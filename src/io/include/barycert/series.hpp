@@ -1,4 +1,10 @@
 /// Series: files that name the files of steps (.pvd, .vtu.series), and which step is meant.
+///
+/// Example:
+///
+///     #include <cstdio>
+///     for (const SeriesStep& step : read_series("run.pvd").value()) std::printf("%g %s\n", step.time,
+///     step.files[0].c_str()); const StepChoice choice{.last = true};
 #pragma once
 
 #include <cstddef>

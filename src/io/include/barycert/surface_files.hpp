@@ -1,4 +1,10 @@
 /// Triangles in space from files.
+///
+/// Example:
+///
+///     #include "barycert/check.hpp"
+///     const Surface surface = read_surface("part.stl").value();
+///     const bool closed = check_surface(surface).surface->closed;
 #pragma once
 
 #include <string>

@@ -6,6 +6,15 @@
 /// NPY  One structured array: x, y[, z] float64, cell int64, feature bytes of 8, each column float64, [distance
 ///      float64], carried columns int64, float64, or text: U, characters, if ColumnFormat::max_characters is not 0,
 ///      else S, bytes; all little-endian. Names must differ from one another; UTF-8.
+///
+/// Example:
+///
+///     #include "barycert/locator.hpp"
+///     Mesh mesh{.dimension = 2, .points = {0, 0, 1, 0, 0, 1}, .cells = {0, 1, 2}};
+///     const Table rows = Locator::build(mesh).value().locate(std::vector<double>{0.2, 0.2}).value();
+///     const std::unique_ptr<TableSink> sink = open_table("rows.csv", {.dimension = 2}).value();
+///     sink->write(rows.view()).value();
+///     sink->commit().value();
 #pragma once
 
 #include <memory>

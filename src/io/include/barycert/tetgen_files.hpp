@@ -1,4 +1,10 @@
 /// TetGen's and Triangle's files: meshes in and out.
+///
+/// Example:
+///
+///     Mesh mesh = read_tetgen("part.1.node").value();
+///     mesh.point_fields.clear();
+///     write_tetgen(mesh, "plain").value();  // plain.node, plain.ele
 #pragma once
 
 #include <string>

@@ -1,4 +1,9 @@
 /// VTK's files: meshes and points. VTK itself is not needed.
+///
+/// Example:
+///
+///     const Mesh mesh = read_vtk("run.pvd", {.last = true}).value();
+///     write_vtu(mesh, "last.vtu", VtkData::zlib).value();
 #pragma once
 
 #include <optional>

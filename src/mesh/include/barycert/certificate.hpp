@@ -1,4 +1,11 @@
 /// Certificates: whether a mesh was checked, and is the one that was.
+///
+/// Example:
+///
+///     #include "barycert/check.hpp"
+///     const Mesh mesh{.dimension = 2, .points = {0, 0, 1, 0, 0, 1}, .cells = {0, 1, 2}};
+///     const Certificate certificate = check_mesh(mesh).certificate;
+///     const bool still = certificate.covers(mesh);  // the same mesh, and certified
 #pragma once
 
 #include <cstdint>

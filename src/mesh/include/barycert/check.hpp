@@ -29,6 +29,16 @@
 /// up to n^2 where thin cells lie side by side askew to the axes. A mesh that is not certified is also searched for
 /// overlapping cells, which takes as long again or longer; CheckOptions::verdict_only skips that. A common point of two
 /// cells takes ten microseconds to some milliseconds; CheckOptions::contacts limits their number.
+///
+/// Example:
+///
+///     #include <cstdio>
+///     #include <string>
+///     const Mesh mesh{.dimension = 2, .points = {0, 0, 1, 0, 0, 1}, .cells = {0, 1, 2}};
+///     const CheckReport report = check_mesh(mesh);
+///     if (!report.certified()) {
+///         for (const Defect& defect : report.defects) std::puts(std::string(defect_text(defect.kind).text).c_str());
+///     }
 #pragma once
 
 #include <array>

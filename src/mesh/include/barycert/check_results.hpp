@@ -1,4 +1,12 @@
 /// Results of a check: contacts of cells, the boundary, volumes, Delaunay, conformity, isoparametric maps.
+///
+/// Example:
+///
+///     #include "barycert/check.hpp"
+///     const Mesh mesh{.dimension = 2, .points = {0, 0, 1, 0, 0, 1}, .cells = {0, 1, 2}};
+///     const CheckReport report = check_mesh(mesh, {.delaunay = true});
+///     const bool closed = report.boundary.closed && report.volume.equal;
+///     const std::uint64_t not_delaunay = report.delaunay->violations;
 #pragma once
 
 #include <array>

@@ -1,4 +1,10 @@
 /// Defects that a check may find in a mesh or surface, and which of them break the certificate.
+///
+/// Example:
+///
+///     const DefectText& text = defect_text(DefectKind::hanging_node);
+///     const bool breaks = text.breaks;                          // the certificate
+///     const DefectSet set = defect_bit(DefectKind::hanging_node) | defect_bit(DefectKind::crack);
 #pragma once
 
 #include <array>
@@ -9,6 +15,7 @@
 #include <vector>
 
 #include "barycert/mesh.hpp"
+#include "barycert/severity.hpp"
 
 namespace barycert {
 
@@ -174,6 +181,12 @@ constexpr const DefectText& defect_text(DefectKind p) {
     return defect_texts[static_cast<std::size_t>(p)];
 }
 
+/// Returns error for what breaks the certificate, warning for what does not and has a remedy, note for the rest.
+constexpr Severity severity(const DefectText& text) {
+    if (text.breaks) return Severity::error;
+    return text.remedy.empty() ? Severity::note : Severity::warning;
+}
+
 /// A set of kinds: bit i is kind i.
 using DefectSet = std::uint64_t;
 constexpr DefectSet defect_bit(DefectKind p) {
@@ -206,5 +219,11 @@ struct Defect {
     bool breaks() const { return cause || defect_text(kind).breaks; }
     std::string_view remedy() const { return better_remedy.empty() ? defect_text(kind).remedy : better_remedy; }
 };
+
+/// Returns the severity of a defect that was found: one of a harmless kind is an error where it causes others that
+/// break the certificate.
+inline Severity severity(const Defect& defect) {
+    return defect.breaks() ? Severity::error : severity(defect_text(defect.kind));
+}
 
 }  // namespace barycert

@@ -1,4 +1,10 @@
 /// Repairs of a mesh that have one right answer.
+///
+/// Example:
+///
+///     const Mesh mesh{.dimension = 2, .points = {0, 0, 1, 0, 0, 1}, .cells = {0, 2, 1}};
+///     FixReport done;
+///     const Mesh fixed = fix_mesh(mesh, {}, done).value();  // done.turned is 1
 #pragma once
 
 #include <cstdint>

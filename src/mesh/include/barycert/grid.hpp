@@ -1,4 +1,11 @@
 /// Regular grids of points.
+///
+/// Example:
+///
+///     Mesh mesh{.dimension = 2, .points = {0, 0, 1, 0, 0, 1}, .cells = {0, 1, 2}};
+///     mesh.point_fields = {{"T", 1, {20, 21, 22}}};
+///     const Grid grid = grid_over(2, {65, 65, 1}, {0, 0, 0}, {1, 1, 0}).value();
+///     const Table rows = resample(Sampler::build(mesh).value(), grid).value();
 #pragma once
 
 #include "barycert/sampler.hpp"

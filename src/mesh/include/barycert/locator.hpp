@@ -30,6 +30,13 @@
 /// walk, on SIMD lanes, to a cell that certainly contains them. Integers decide what the filter leaves open;
 /// connectivity gives the cells around a face, edge or vertex. If a walk ends at the boundary, or in a cell without
 /// that proof, every cell whose box contains the point is tested. Points where no cell is near are outside at once.
+///
+/// Example:
+///
+///     const Mesh mesh{.dimension = 2, .points = {0, 0, 1, 0, 0, 1}, .cells = {0, 1, 2}};
+///     const Locator locator = Locator::build(mesh).value();
+///     const double point[] = {0.2, 0.2};
+///     const Mesh::Index cell = locator.locate(point).value().cell;  // -1 outside
 #pragma once
 
 #include <functional>

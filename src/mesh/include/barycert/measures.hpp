@@ -1,4 +1,12 @@
 /// Measures of cells: exact orientation, volume and condition, and shape.
+///
+/// Example:
+///
+///     #include "barycert/check.hpp"
+///     const Mesh mesh{.dimension = 2, .points = {0, 0, 1, 0, 0, 1}, .cells = {0, 1, 2}};
+///     const CellMeasures measures = check_mesh(mesh).measures;
+///     const Distribution areas = distribution(measures.volume);  // min, median, max, and cells
+///     const std::vector<Field> fields = measure_fields(measures);
 #pragma once
 
 #include <array>

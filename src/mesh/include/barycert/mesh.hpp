@@ -2,6 +2,14 @@
 ///
 /// Tetrahedra in 3-space or triangles in the plane; cells of other shapes are cut into these. All indices are 0-based
 /// positions in file order, whatever base the file used. Coordinates are finite doubles in the file's own unit.
+///
+/// Example:
+///
+///     Mesh mesh;
+///     mesh.dimension = 2;
+///     mesh.points = {0, 0, 1, 0, 0, 1, 1, 1};
+///     mesh.cells = {0, 1, 2, 1, 3, 2};
+///     mesh.point_fields = {{"T", 1, {20, 21, 22, 23}}};
 #pragma once
 
 #include <array>

@@ -1,4 +1,11 @@
 /// Values of fields that are NaN or infinite.
+///
+/// Example:
+///
+///     #include <cmath>
+///     Mesh mesh{.dimension = 2, .points = {0, 0, 1, 0, 0, 1}, .cells = {0, 1, 2}};
+///     mesh.point_fields = {{"T", 1, {20, NAN, 22}}};
+///     const std::uint64_t missing = not_finite_values(mesh).front().count;  // 1
 #pragma once
 
 #include <cstdint>

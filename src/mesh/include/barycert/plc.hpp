@@ -1,4 +1,11 @@
 /// Piecewise linear complexes (PLCs): polygons in space that bound and cut the region to be meshed.
+///
+/// Example:
+///
+///     Plc plc;
+///     plc.points = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+///     for (const std::vector<std::int32_t>& ring : {std::vector{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}})
+///         plc.facets.push_back({.polygons = {ring}});
 #pragma once
 
 #include <cstddef>

@@ -36,6 +36,13 @@
 ///                   over all cells that have it, weighted by their volumes (areas; with straight sides), exact and
 ///                   rounded once. It is NaN where a value of a cell that is not degenerate is not finite.
 /// With Rounding::plain, gradients and means are correctly rounded as well, except gradients on cells of second order.
+///
+/// Example:
+///
+///     Mesh mesh{.dimension = 2, .points = {0, 0, 1, 0, 0, 1}, .cells = {0, 1, 2}};
+///     mesh.point_fields = {{"T", 1, {20, 21, 22}}};
+///     const Sampler sampler = Sampler::build(mesh, {"T"}).value();
+///     const Table rows = sampler.sample(std::vector<double>{0.2, 0.2}).value();  // rows.values[0] is T there
 #pragma once
 
 #include <limits>

@@ -33,6 +33,13 @@
 /// is part of the cut only if the rest of its cell is outside.
 ///
 /// Cells of second order are cut as linear ones, by their corners: CutCounts::second_order tells how many.
+///
+/// Example:
+///
+///     Mesh mesh{.points = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, .cells = {0, 1, 2, 3}};
+///     const Field height{"z", 1, {0, 0, 0, 1}};
+///     const Surface level = isosurface(mesh, height, 0.5).value().surface;  // one triangle
+///     const Surface all = boundary(mesh).value();                             // four
 #pragma once
 
 #include "barycert/table.hpp"

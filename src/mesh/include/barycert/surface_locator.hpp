@@ -25,6 +25,14 @@
 ///       beyond the doubles round to infinity. A value that is not finite counts only if its node has a weight.
 ///   H1  `hits` are all triangles that a segment meets, in their exact order along it, ties by triangle.
 ///   D1  Results depend on the points and the surface alone, not on threads, SIMD target or the order of points.
+///
+/// Example:
+///
+///     const Mesh mesh{.points = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, .cells = {0, 1, 2, 3}};
+///     const Surface surface = boundary(mesh).value();
+///     const SurfaceLocator locator = SurfaceLocator::build(surface).value();
+///     const double point[] = {0.1, 0.1, 0.1};
+///     const bool inside = locator.locate(point).value().winding != 0;
 #pragma once
 
 #include "barycert/locator.hpp"

@@ -1,6 +1,6 @@
 /// Results of a check of a surface or a PLC.
 ///
-/// Surfaces and PLCs. Two nodes at one place are one node here, as for TetGen. A surface is certified if
+/// Two nodes at one place are one node here, as for TetGen. A surface is certified if
 ///   S1  every coordinate is finite, every corner is a node, no triangle is degenerate, and every facet of a PLC can be
 ///       cut into triangles of its nodes (read_surface);
 ///   S2  two triangles meet, if at all, in a common node or edge of both, and where sheets of the surface, as its nodes
@@ -10,6 +10,13 @@
 ///       enclose a region; and each region point is in one or on a facet.
 /// All of it is decided exactly, from signs of orientations of nodes. Facets of a PLC whose nodes do not lie in one
 /// plane stand for the triangles that they are cut into; how far off they are is told.
+///
+/// Example:
+///
+///     #include "barycert/check.hpp"
+///     const Surface surface{.points = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, .cells = {0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0,
+///     3}}; const SurfaceReport report = *check_surface(surface).surface; const double volume =
+///     report.shells.front().volume.value();  // 1/6
 #pragma once
 
 #include <cstdint>

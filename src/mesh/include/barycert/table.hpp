@@ -2,6 +2,13 @@
 ///
 /// A row belongs to one point, or to one point and one cell that holds it. `Table` owns rows, `TableView` refers to the
 /// rows of somebody else. Parts that nobody asked for are empty; all others have one entry a row.
+///
+/// Example:
+///
+///     #include "barycert/locator.hpp"
+///     const Mesh mesh{.dimension = 2, .points = {0, 0, 1, 0, 0, 1}, .cells = {0, 1, 2}};
+///     const Table rows = Locator::build(mesh).value().locate(std::vector<double>{0.2, 0.2, 2, 2}).value();
+///     const bool inside = rows.cells[0] >= 0 && rows.features[1] == Feature::outside;
 #pragma once
 
 #include "barycert/mesh.hpp"

@@ -12,6 +12,14 @@
 ///       for fields of cells.
 ///   R4  Nothing is silent: every row is in exactly one of Verdicts::right, missed, invented, wrong_cell, wrong_value.
 ///   D1  Counts depend on mesh, fields and rows alone: not on threads or blocks.
+///
+/// Example:
+///
+///     Mesh mesh{.dimension = 2, .points = {0, 0, 1, 0, 0, 1}, .cells = {0, 1, 2}};
+///     mesh.point_fields = {{"T", 1, {20, 21, 22}}};
+///     const Sampler sampler = Sampler::build(mesh).value();
+///     const std::vector<double> points{0.2, 0.2}, values{20.6};
+///     const Verdicts verdicts = Verifier(sampler, {}).verify({.points = points, .values = values}).value();
 #pragma once
 
 #include "barycert/sampler.hpp"

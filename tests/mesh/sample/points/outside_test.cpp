@@ -7,6 +7,7 @@
 
 #include "barycert/gmsh_files.hpp"
 #include "barycert/mesh_files.hpp"
+#include "barycert/oracle.hpp"
 #include "barycert/plc_files.hpp"
 #include "barycert/point_files.hpp"
 #include "barycert/series.hpp"
@@ -14,7 +15,6 @@
 #include "barycert/table_files.hpp"
 #include "barycert/tetgen_files.hpp"
 #include "barycert/vtk_files.hpp"
-#include "barycert/oracle.hpp"
 #include "core/base/text.hpp"
 #include "tests/limits.hpp"
 #include "tests/mesh/check/meshes.hpp"
