@@ -4,7 +4,7 @@ if(PROJECT_IS_TOP_LEVEL)
   set(BARYCERT_UNITY ON CACHE STRING "Compile several sources of a folder in one compiler run: ON, OFF")
 endif()
 
-# barycert_join(TARGET): joins the sources of the target in each folder but those named below, by up to eight. Alone stay those
+# barycert_join(TARGET): joins the sources of the target in each folder, by up to eight. Alone stay those
 # that Highway compiles once for each processor, for they include themselves, and those that CMake leaves out: with options or
 # definitions of their own, or with SKIP_UNITY_BUILD_INCLUSION. Call it from the folder of the target.
 function(barycert_join target)
@@ -21,8 +21,7 @@ function(barycert_join target)
     get_filename_component(folder ${path} DIRECTORY)
     file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${folder})
     file(STRINGS ${path} lanes REGEX "core/foreach_target.hpp")
-    # Sources of these folders have names of their own that others there have, too.
-    if(lanes OR folder MATCHES "src/core$|src/draw|mesh/(check|index|surface)$")
+    if(lanes)
       continue()
     endif()
     string(MAKE_C_IDENTIFIER ${folder} group)

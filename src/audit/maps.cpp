@@ -4,7 +4,7 @@
 #include "audit/asking.hpp"
 #include "audit/recipes.hpp"
 #include "barycert/audit_pictures.hpp"
-#include "barycert/locator.hpp"
+#include "barycert/predicates.hpp"
 
 namespace barycert {
 
@@ -12,33 +12,70 @@ using namespace audit;
 
 namespace {
 
-/// The owners of the centres of a grid of pixels, row by row from the top. Throws an Exception, as what follows does.
-std::vector<Mesh::Index> owners_in(const Locator& locator, const PreparedMesh& m, const MeshFrame& f, int threads) {
-    const auto d = static_cast<std::size_t>(m.mesh.dimension);
-    std::vector<double> points;
-    points.reserve(d * f.width * f.height);
-    const auto place = [&](std::size_t axis, std::size_t i, std::size_t of) {
-        const double t = (static_cast<double>(i) + 0.5) / static_cast<double>(of);
-        return (1 - t) * m.box[axis].low + t * m.box[axis].high;
-    };
-    for (std::size_t row = 0; row < f.height; ++row) {
-        for (std::size_t column = 0; column < f.width; ++column) {
-            std::array<double, 3> p{};
-            if (f.axis >= 0) p[static_cast<std::size_t>(f.axis)] = f.at;
-            p[f.shown[0]] = place(f.shown[0], column, f.width);
-            p[f.shown[1]] = place(f.shown[1], f.height - 1 - row, f.height);
-            points.insert(points.end(), p.begin(), p.begin() + static_cast<std::ptrdiff_t>(d));
+/// The centres of a grid of pixels: coordinates of its columns, and of its rows from the top.
+struct Centres {
+    Centres(const PreparedMesh& m, const MeshFrame& f) {
+        const auto fill = [&](std::vector<double>& to, std::size_t axis, std::size_t count) {
+            for (std::size_t i = 0; i < count; ++i) {
+                const double t = (static_cast<double>(i) + 0.5) / static_cast<double>(count);
+                to.push_back((1 - t) * m.box[axis].low + t * m.box[axis].high);
+            }
+        };
+        fill(columns, f.shown[0], f.width);
+        fill(rows, f.shown[1], f.height);
+        std::ranges::reverse(rows);
+    }
+
+    std::vector<double> columns, rows;
+};
+
+/// Places of the first of the centres within a range, and behind the last one; equal if none is.
+std::pair<std::size_t, std::size_t> between(const std::vector<double>& centres, const base::Range& range) {
+    const auto is_in = [&](double x) { return range.low <= x && x <= range.high; };
+    const auto first = std::ranges::find_if(centres, is_in);
+    const auto end = std::find_if(centres.rbegin(), std::make_reverse_iterator(first), is_in).base();
+    return {static_cast<std::size_t>(first - centres.begin()), static_cast<std::size_t>(end - centres.begin())};
+}
+
+/// The lowest cell that has each centre of a grid of pixels, row by row from the top; -1: none has.
+std::vector<Mesh::Index> owners_in(const PreparedMesh& m, const MeshFrame& f) {
+    const Mesh& mesh = m.mesh;
+    const auto d = static_cast<std::size_t>(mesh.dimension);
+    const Simplex simplex = d == 2 ? Simplex::triangle : Simplex::tetrahedron;
+    const Centres centres(m, f);
+    std::vector<Mesh::Index> owners(f.width * f.height, -1);
+    std::array<double, 12> vertices{};
+    std::array<double, 3> point{};
+    if (f.axis >= 0) point[static_cast<std::size_t>(f.axis)] = f.at;
+    for (std::size_t cell = 0; cell < mesh.cell_count(); ++cell) {
+        std::array<base::Range, 3> box;
+        double* to = vertices.data();
+        for (const Mesh::Index node : mesh.corners_of(cell)) {
+            for (std::size_t k = 0; k < d; ++k) box[k].add(*to++ = mesh.point(node)[k]);
+        }
+        if (f.axis >= 0) {
+            const base::Range& across = box[static_cast<std::size_t>(f.axis)];
+            if (f.at < across.low || f.at > across.high) continue;
+        }
+        const auto [left, right] = between(centres.columns, box[f.shown[0]]);
+        const auto [top, bottom] = between(centres.rows, box[f.shown[1]]);
+        for (std::size_t row = top; row < bottom; ++row) {
+            for (std::size_t column = left; column < right; ++column) {
+                Mesh::Index& owner = owners[row * f.width + column];
+                if (owner >= 0) continue;
+                point[f.shown[0]] = centres.columns[column];
+                point[f.shown[1]] = centres.rows[row];
+                const Region region = weight_signs(simplex, vertices.data(), point.data()).region();
+                if (region == Region::interior || region == Region::boundary) owner = static_cast<Mesh::Index>(cell);
+            }
         }
     }
-    std::vector<Mesh::Index> owners(f.width * f.height);
-    std::vector<Feature> features(owners.size());
-    locator.locate(points, owners, features, nullptr, threads).value();
     return owners;
 }
 
 /// The first plane, from the middle outwards, that cuts at least half as much out of the mesh as any other; seen
 /// coarsely. Sections near the ends are for plates.
-MeshFrame best_frame(const Locator& locator, const PreparedMesh& m, int threads) {
+MeshFrame best_frame(const PreparedMesh& m) {
     if (m.mesh.dimension == 2) return MeshFrame();
     const std::array<double, 3> extent{m.box[0].half(), m.box[1].half(), m.box[2].half()};  // the whole may overflow
     const double largest = std::max({extent[0], extent[1], extent[2]});
@@ -47,7 +84,7 @@ MeshFrame best_frame(const Locator& locator, const PreparedMesh& m, int threads)
         for (std::size_t k = 0; k < 3; ++k) {
             const double at = (1 - t) * m.box[k].low + t * m.box[k].high;
             const MeshFrame f{static_cast<int>(k), at, {k == 0 ? 1U : 0U, k == 2 ? 1U : 2U}, 24, 24};
-            const auto owners = owners_in(locator, m, f, threads);
+            const auto owners = owners_in(m, f);
             const auto inside = std::ranges::count_if(owners, [](Mesh::Index c) { return c >= 0; });
             const double sides = (extent[f.shown[0]] / largest) * (extent[f.shown[1]] / largest);
             planes.emplace_back(static_cast<double>(inside) * sides, f);
@@ -120,10 +157,9 @@ void fill_errors(MeshMap& map, const PreparedMesh& m, const std::vector<Mesh::In
 
 void fill_map(MeshMap& map, const PreparedMesh& m, const std::vector<Kernel>& kernels, std::uint64_t seed,
               int threads) {
-    const Locator locator = Locator::build(m.mesh, {.curved = Curved::straight, .threads = threads}).value();
-    MeshFrame frame = best_frame(locator, m, threads);
+    MeshFrame frame = best_frame(m);
     set_size(frame, m);
-    const std::vector<Mesh::Index> owners = owners_in(locator, m, frame, threads);
+    const std::vector<Mesh::Index> owners = owners_in(m, frame);
     const std::set<Mesh::Index> seen(owners.begin(), owners.end());
     const std::vector<Mesh::Index> cells(seen.lower_bound(0), seen.end());
     if (cells.empty()) throw Exception({.code = "picture.empty", .what = "no cell is large enough to be seen"});

@@ -5,7 +5,7 @@
 
 #include "barycert/environment.hpp"
 #include "core/base/text.hpp"
-#include "core/isoparametric/shape_functions.hpp"
+#include "core/shape_functions.hpp"
 #include "mesh/mid_edges.hpp"
 #include "mesh/pulling.hpp"
 #include "mesh/straight_nodes.hpp"

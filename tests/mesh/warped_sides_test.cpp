@@ -1,6 +1,6 @@
 // Sides that are not flat, and what lies beyond them.
 
-#include "mesh/warped_sides.hpp"
+#include "mesh/index/warped_sides.hpp"
 
 #include <gtest/gtest.h>
 

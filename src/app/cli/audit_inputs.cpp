@@ -3,6 +3,8 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "barycert/audit_search.hpp"
+#include "barycert/gaps.hpp"
 #include "core/base/nearest_name.hpp"
 
 namespace barycert::cli {
@@ -10,7 +12,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// BARYCERT_DATA_DIR, the data beside an installed program, or the source tree's; empty if there is none.
+template <class Chosen, class Items, Result<Items> (*choose)(const Chosen&), std::string (*json)(const Items&),
+          std::string (*text)(const Items&)>
+int list(Arguments<Chosen>& a) {
+    return a.reports.end(choose(a.job), [&](const Items& all) {
+        return Told{.files = {{"--json", [&] { return json(all); }}}, .text = [&](bool) { return text(all); }};
+    });
+}
+
+}  // namespace
+
 fs::path data_folder() {
     if (const char* named = std::getenv("BARYCERT_DATA_DIR"); named != nullptr && *named != '\0') return named;
     std::error_code ignored;
@@ -22,16 +33,6 @@ fs::path data_folder() {
     if (fs::is_directory(BARYCERT_SOURCE_DATA_DIR, ignored)) return BARYCERT_SOURCE_DATA_DIR;
     return {};
 }
-
-template <class Chosen, class Items, Result<Items> (*choose)(const Chosen&), std::string (*json)(const Items&),
-          std::string (*text)(const Items&)>
-int list(Arguments<Chosen>& a) {
-    return a.reports.end(choose(a.job), [&](const Items& all) {
-        return Told{.files = {{"--json", [&] { return json(all); }}}, .text = [&](bool) { return text(all); }};
-    });
-}
-
-}  // namespace
 
 Result<std::vector<NamedMesh>> meshes_or_own(const std::vector<std::string>& paths) {
     std::vector<NamedMesh> meshes;
@@ -49,6 +50,15 @@ Result<std::vector<NamedMesh>> meshes_or_own(const std::vector<std::string>& pat
                           trouble ? trouble.message() : "no .node file",
                           "name a mesh, or set BARYCERT_DATA_DIR to the folder `data` of barycert's sources");
     return meshes;
+}
+
+void add_audit_words(Vocabulary& words) {
+    words["KERNEL"] = names_of(kernels_matching("*"));
+    words["FAMILY"] = names_of(all_families());
+    for (std::size_t reason = 0; reason < witness_reasons; ++reason) words["REASON"].emplace_back(reason_name(reason));
+    words["RULE"] = threshold_names();
+    for (std::size_t fault = 0; fault < claim_fault_count; ++fault)
+        words["FAULT"].emplace_back(name(static_cast<ClaimFault>(fault)));
 }
 
 void add_kernel_rules(const Options& o, KernelChoice& kernels) {

@@ -1,16 +1,35 @@
 /// Inputs of an audit, named by the words of the user: meshes, kernels and families.
 #pragma once
 
+#include <filesystem>
+
 #include "barycert/audit_job.hpp"
 #include "barycert/audit_report.hpp"
 #include "reports.hpp"
 
 namespace barycert::cli {
 
-/// The reader of meshes of this program, and the files that a path names: barycert all formats (all_meshes.cpp),
-/// barycert-audit those of TetGen and Triangle alone (tetgen_meshes.cpp).
+// What barycert has (audit_whole.cpp), and barycert-audit only a part of (audit_alone.cpp), so that it is built in less
+// time.
+
+/// The reader of meshes, and the files that a path names: of all formats, or of those of TetGen and Triangle alone.
 Result<Mesh> read_audited(const std::string& path, const ReadOptions& options);
 std::vector<std::string> audited_files(const std::string& path);
+
+/// Checks a mesh, or knows it for one of barycert's own meshes, which a test checks.
+Certificate certify_audited(const Mesh& mesh, int threads);
+
+/// Audits rules that answer cases of their own, on surfaces and inverse maps, or refuses to. Returns the exit code.
+struct RuleRun {
+    Reports& reports;
+    const AuditOptions& options;
+    std::function<void(const AuditProgress&)> progress;
+};
+int run_surface_rules(const RuleRun& run);
+int run_inverse_rules(const RuleRun& run);
+
+/// BARYCERT_DATA_DIR, the data beside an installed program, or the source tree's; empty if there is none.
+std::filesystem::path data_folder();
 
 /// The meshes named by the user, or those of barycert's own data folder, by the stems of their files.
 Result<std::vector<NamedMesh>> meshes_or_own(const std::vector<std::string>& paths);

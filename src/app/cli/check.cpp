@@ -1,6 +1,7 @@
 // barycert check: is a mesh a partition of its domain? Proved in exact arithmetic, or the reasons why not.
 
 #include "app/report/check/check_words.hpp"
+#include "check_parts.hpp"
 #include "reports.hpp"
 
 namespace barycert::cli {
@@ -9,7 +10,7 @@ namespace {
 int run_check(Arguments<CheckJob>& a) {
     a.reports.begin(a.job);
     a.job.plot = !a.reports.path("--plot").empty();
-    return a.reports.end(check_files(a.job), [&](const CheckedMesh& c) {
+    return a.reports.end(checked_files(a.job), [&](const CheckedMesh& c) {
         const FixedMesh* const fixed = c.copied ? &*c.fixed : nullptr;
         Told told{.text =
                       [&c, fixed](bool colour) {
@@ -29,11 +30,8 @@ int run_check(Arguments<CheckJob>& a) {
             return told;  // without the copy the reports would say less than was asked for
         }
         told.files["--json"] = [&, fixed] { return check_json(c.report, a.job.mesh, measure_environment(), fixed); };
-        told.files["--html"] = [&c, fixed] {
-            return c.report.surface ? check_html(c.report, c.surface, c.name)
-                                    : check_html(c.report, c.mesh, c.name, fixed);
-        };
-        told.files["--plot"] = [&a, &c] { return check_plot(c.report, c.name, a.reports.path("--plot")); };
+        told.files["--html"] = [&c, fixed] { return checked_page(c, fixed); };
+        told.files["--plot"] = [&a, &c] { return checked_plot(c, a.reports.path("--plot")); };
         return told;
     });
 }

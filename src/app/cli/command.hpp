@@ -1,6 +1,7 @@
 /// Steps of all subcommands around their job: exit codes, messages on stderr, the name by which the program is called.
 #pragma once
 
+#include "app/options/command_table.hpp"
 #include "barycert/result.hpp"
 
 namespace barycert::cli {
@@ -11,8 +12,16 @@ inline constexpr int exit_error = 2;
 
 class Options;
 
-/// Declares the subcommands of an executable, by those below: of barycert all, of barycert-audit the audit's.
+/// Declares the subcommands of an executable, by those below: barycert has all, barycert-audit the audit's, barycert-check
+/// one.
 void add_subcommands(const Options& program);
+
+/// What they need done before any thread starts.
+void prepare_subcommands();
+
+/// Words that stand for what their options take, such as KERNEL: for completions.
+void add_words(Vocabulary& words);
+void add_audit_words(Vocabulary& words);
 
 /// Each declares its subcommand below the program.
 void add_audit(const Options& program);

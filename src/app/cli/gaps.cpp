@@ -31,7 +31,7 @@ int run_gaps(GapsArguments& a) {
     a.job.options.kernels = chosen_kernels(a.kernels).value();
     std::ranges::copy_if(all_claim_rules, std::back_inserter(a.job.options.rules),
                          [&](ClaimRule rule) { return std::ranges::count(a.rules, name(rule)) != 0; });
-    return a.reports.end(gaps_file(a.job, read_audited), [&](const GapsReport& report) {
+    return a.reports.end(gaps_file(a.job, read_audited, certify_audited), [&](const GapsReport& report) {
         const std::string failures = broken_limits(report, a.limits);
         return Told{.files = {{"--json", [&] { return gaps_json(report); }}},
                     .text = [&](bool colour) { return gaps_text(report, {.colour = colour}); },

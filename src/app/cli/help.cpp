@@ -10,11 +10,6 @@
 #include "app/options/command_table.hpp"
 #include "core/base/nearest_name.hpp"
 #include "options.hpp"
-#ifdef BARYCERT_WITH_AUDIT
-#include "barycert/audit_search.hpp"
-#include "barycert/gaps.hpp"
-#include "barycert/mutants.hpp"
-#endif
 
 namespace barycert::cli {
 namespace {
@@ -31,14 +26,7 @@ struct HelpArguments {
 Vocabulary vocabulary(const CLI::App& app) {
     Vocabulary words{{"SUBCOMMAND", command_names(app)}};
     for (const RowVerdict kind : kinds_of_wrong) words["KIND"].emplace_back(handle(kind));
-#ifdef BARYCERT_WITH_AUDIT
-    words["KERNEL"] = names_of(kernels_matching("*"));
-    words["FAMILY"] = names_of(all_families());
-    for (std::size_t reason = 0; reason < witness_reasons; ++reason) words["REASON"].emplace_back(reason_name(reason));
-    words["RULE"] = threshold_names();
-    for (std::size_t fault = 0; fault < claim_fault_count; ++fault)
-        words["FAULT"].emplace_back(name(static_cast<ClaimFault>(fault)));
-#endif
+    add_words(words);
     return words;
 }
 

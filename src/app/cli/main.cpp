@@ -53,9 +53,7 @@ int run(int argc, char** argv) {
     if (first == "mesh") return exec_mesh(argc, argv);
     base::remove_begun_files_on_signals(true);
     const base::RunFiles files;
-#ifdef BARYCERT_WITH_AUDIT
-    prepare_for_want_of_memory();
-#endif
+    prepare_subcommands();
     fetch_memory_for_threads();
     // Stops where the build itself is wrong: no call can set what was compiled in.
     if (const Status exact = check_environment(measure_environment()); !exact) return fail(exact.error());

@@ -204,7 +204,7 @@ void add_render(const Options& program) {
                 "A triangle and segments with colours, before and after clipping by a box");
     add_mesh(o);
     add_render_contours(o);
-#ifdef BARYCERT_WITH_AUDIT
+#ifdef BARYCERT_AUDIT_COMMANDS
     add_render_tables(o);
 #endif
     o.app().require_subcommand(0, 1);

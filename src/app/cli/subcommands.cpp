@@ -1,21 +1,36 @@
-// The subcommands of barycert, in the order of its help; of barycert-audit those that do not need the whole library.
+// The subcommands of barycert, in the order of its help. barycert-audit and barycert-check have those alone that they are
+// named after.
 #include "command.hpp"
 
 namespace barycert::cli {
 
+void prepare_subcommands() {
+#ifdef BARYCERT_AUDIT_COMMANDS
+    prepare_for_want_of_memory();
+#endif
+}
+
+void add_words([[maybe_unused]] Vocabulary& words) {
+#ifdef BARYCERT_AUDIT_COMMANDS
+    add_audit_words(words);
+#endif
+}
+
 void add_subcommands(const Options& program) {
-#ifdef BARYCERT_WITH_AUDIT
+#ifdef BARYCERT_AUDIT_COMMANDS
     add_audit(program);
     add_gaps(program);
 #endif
-#ifndef BARYCERT_AUDIT_ALONE
+#ifdef BARYCERT_CHECK_COMMAND
     add_check(program);
+#endif
+#ifdef BARYCERT_OTHER_COMMANDS
     add_sample(program);
     add_resample(program);
     add_verify(program);
     add_render(program);
 #endif
-#ifdef BARYCERT_WITH_AUDIT
+#ifdef BARYCERT_AUDIT_COMMANDS
     add_search(program);
     add_replay(program);
     add_catalogue(program);

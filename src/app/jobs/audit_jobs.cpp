@@ -30,12 +30,8 @@ Mesh cells_of(const std::string& path, int threads, Curved curved, const MeshRea
     return mesh;
 }
 
-Certificate certificate_of(const Mesh& mesh, int threads) {
-    return check_mesh(mesh, {.threads = threads, .verdict_only = true}).certificate;
-}
-
 /// Throws an Exception.
-MeshSource source_of(const std::vector<NamedMesh>& meshes, bool certify, int threads, Curved curved,
+MeshSource source_of(const std::vector<NamedMesh>& meshes, const MeshCertifier& certify, int threads, Curved curved,
                      const MeshReader& read, Notes& notes) {
     MeshSource source;
     tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
@@ -43,7 +39,7 @@ MeshSource source_of(const std::vector<NamedMesh>& meshes, bool certify, int thr
         Mesh mesh = cells_of(named.path, threads, curved, read, notes);
         if (mesh.cell_count() == 0)
             throw Exception({.code = "mesh.empty", .what = "the mesh has no cells", .file = named.path});
-        const Certificate certificate = certify ? certificate_of(mesh, threads) : Certificate();
+        const Certificate certificate = certify ? certify(mesh, threads) : Certificate();
         arena.execute([&] { source.add(named.name, std::move(mesh), certificate); });
     }
     return source;
@@ -51,13 +47,13 @@ MeshSource source_of(const std::vector<NamedMesh>& meshes, bool certify, int thr
 
 }  // namespace
 
-Result<PreparedAudit> prepare_audit(const AuditJob& job, const MeshReader& read) try {
+Result<PreparedAudit> prepare_audit(const AuditJob& job, const MeshReader& read, const MeshCertifier& certify) try {
     PreparedAudit out{.options = job.options, .meshes = {}, .baseline = {}, .libraries = {}, .notes = {}};
     out.options.kernels = choose_kernels(job.kernels).value();
     out.options.families = choose_families(job.families).value();
     const bool wanted = std::ranges::any_of(out.options.families, &Family::needs_mesh);
     if (wanted || job.meshes_asked)
-        out.meshes = source_of(job.meshes, job.check, job.options.threads, job.curved, read, out.notes);
+        out.meshes = source_of(job.meshes, job.check ? certify : MeshCertifier(), job.options.threads, job.curved, read, out.notes);
     if (!job.baseline.empty()) {
         out.baseline = read_baseline(job.baseline).value();
         check_comparable(*out.baseline, out.options, out.meshes).value();
@@ -108,7 +104,7 @@ Result<Witness> make_witness(const CaseJob& job, const std::vector<Kernel>& kern
     MeshSource meshes;
     if (family.needs_mesh) {
         Notes notes;
-        meshes = source_of(job.meshes, false, 0, Curved::straight, read, notes);
+        meshes = source_of(job.meshes, {}, 0, Curved::straight, read, notes);
         if (!meshes.supplies(*simplex))
             return Error{.code = "witness.mesh",
                          .what = "no mesh supplies a " + std::string(name(*simplex)),
@@ -122,11 +118,11 @@ Result<Witness> make_witness(const CaseJob& job, const std::vector<Kernel>& kern
     return e.error();
 }
 
-Result<GapsReport> gaps_file(const GapsJob& job, const MeshReader& read) try {
+Result<GapsReport> gaps_file(const GapsJob& job, const MeshReader& read, const MeshCertifier& certify) try {
     Notes notes;
     const Mesh mesh = cells_of(job.mesh, job.options.threads, job.curved, read, notes);
     const Verdict verdict =
-        job.check ? certificate_of(mesh, job.options.threads).verdict_on(mesh) : Verdict::not_checked;
+        job.check ? certify(mesh, job.options.threads).verdict_on(mesh) : Verdict::not_checked;
     GapsReport report = find_gaps(job.options, mesh, job.mesh, verdict).value();
     report.notes = std::move(notes);
     return report;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "app/jobs/checked_mesh.hpp"
 #include "app/jobs/job_files.hpp"
 #include "io/formats.hpp"
 #include "io/polygons/triangles.hpp"
@@ -166,8 +167,7 @@ Result<CheckedMesh> check_files(const CheckJob& job) try {
     check_job(job);
     jobs::tell_stage(job, "checking: reading");
     CheckedMesh checked;
-    CheckOptions options = job.options;
-    options.progress = [&](const char* text) { jobs::tell_stage(job, std::string("checking: ") + text); };
+    CheckOptions options = jobs::told_options(job);
     std::optional<Plc> polygons;
     if (io::is_plc_file(job.mesh)) {
         polygons = read_plc(job.mesh).value();
@@ -195,8 +195,7 @@ Result<CheckedMesh> check_files(const CheckJob& job) try {
         refuse_member("file.suffix", "job.measures", job.measures, "job.measures writes VTU files of meshes",
                       "a name that ends in .vtu", "", "choose another name");
     const Mesh& mesh = checked.mesh;
-    if (job.curved == Curved::refuse) measure_curved(checked.mesh, job.mesh, job.curved).value();
-    options.curved = job.curved;
+    jobs::take_curved(job, mesh, options);
     check_nothing_in_the_way(job, mesh);
     Plc plc;
     if (!job.plc.empty()) {
@@ -207,11 +206,7 @@ Result<CheckedMesh> check_files(const CheckJob& job) try {
         checked.mesh.notes.insert(checked.mesh.notes.end(), plc.notes.begin(), plc.notes.end());
         options.plc = &plc;
     }
-    checked.name = tetgen_stem(job.mesh);
-    const std::vector<std::string> files = mesh_files(job.mesh);
-    const auto there = std::ranges::find_if(files, io::exists);
-    checked.artifact = there == files.end() ? job.mesh : *there;
-    checked.report = check_mesh(mesh, options);
+    jobs::check_cells(job, mesh_files(job.mesh), tetgen_stem(job.mesh), options, checked);
     try {
         if (!copy_of(job).path.empty()) write_copy(job, options, checked);
     } catch (const Exception& e) {

@@ -10,7 +10,7 @@
 #include <algorithm>
 
 #include "barycert/simplex.hpp"
-#include "core/isoparametric/shape_functions.hpp"
+#include "core/shape_functions.hpp"
 
 namespace barycert::core::isoparametric {
 

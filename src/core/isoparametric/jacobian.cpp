@@ -117,14 +117,6 @@ std::optional<JacobianSign> common_sign(const Reference& of, const Places& place
 
 }  // namespace
 
-const Reference* linear_reference(std::uint8_t type) {
-    static const Reference quadrilateral{Element::quadrilateral, 1, 4}, hexahedron{Element::hexahedron, 1, 8},
-        wedge{Element::wedge, 1, 6}, pyramid{Element::pyramid, 1, 5};
-    if (type == vtk_pixel || type == vtk_quad) return &quadrilateral;
-    if (type == vtk_voxel || type == vtk_hexahedron) return &hexahedron;
-    return type == vtk_wedge ? &wedge : type == vtk_pyramid ? &pyramid : nullptr;
-}
-
 JacobianSign jacobian_sign(const Reference& of, const Places& places, int bisections) {
     if (of.is_simplex()) return simplex_jacobian_sign(of, places, bisections);
     if (const auto sign = common_sign(of, places)) return *sign;

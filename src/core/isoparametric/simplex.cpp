@@ -1,37 +1,13 @@
-// Curved simplices: their nodes, Bernstein coefficients, and the sign of the Jacobian.
+// Curved simplices: their Bernstein coefficients, and the sign of the Jacobian.
 #include "core/isoparametric/simplex_basis.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <string_view>
 
 #include "core/isoparametric/bernstein.hpp"
 
 namespace barycert::core::isoparametric {
 namespace {
-
-/// Multi-indices of the nodes as VTK's vtkLagrangeTriangle and vtkLagrangeTetra number them.
-constexpr std::array<std::string_view, 6> node_orders{
-    "200 020 002 110 011 101",
-    "300 030 003 210 120 021 012 102 201 111",
-    "400 040 004 310 220 130 031 022 013 103 202 301 211 121 112",
-    "2000 0200 0020 0002 1100 0110 1010 1001 0101 0011",
-    "3000 0300 0030 0003 2100 1200 0210 0120 1020 2010 2001 1002 0201 0102 0021 0012 1101 0111 1011 1110",
-    "4000 0400 0040 0004 3100 2200 1300 0310 0220 0130 1030 2020 3010 3001 2002 1003 0301 0202 0103 0031 0022 0013 "
-    "2101 1201 1102 0121 0112 0211 2011 1012 1021 2110 1120 1210 1111"};
-
-Reference reference_of(std::size_t which) {
-    const bool flat = which < 3;
-    Reference r{flat ? Element::triangle : Element::tetrahedron, static_cast<int>(which % 3) + 2, 0, 1, {}};
-    for (int k = 2; k <= r.order; ++k) r.scale *= k;
-    const std::string_view text = node_orders[which];
-    for (std::size_t at = 0; at < text.size(); at += flat ? 4 : 5) {
-        auto& index = r.indices.emplace_back();
-        for (std::size_t c = 0; c < (flat ? 3U : 4U); ++c) index[c] = static_cast<std::uint8_t>(text[at + c] - '0');
-    }
-    r.nodes = r.indices.size();
-    return r;
-}
 
 using Index = std::array<std::uint8_t, 4>;
 
@@ -73,49 +49,53 @@ ToBernstein to_bernstein(const Reference& of) {
     return out;
 }
 
-const std::array<SimplexBasis, 6>& simplices() {
-    static const std::array<SimplexBasis, 6> all = [] {
-        std::array<SimplexBasis, 6> made;
-        for (std::size_t i = 0; i < made.size(); ++i) {
-            SimplexBasis& s = made[i];
-            s.reference = reference_of(i);
-            s.bernstein = to_bernstein(s.reference);
-            const auto place = [&](const Index& index) {
-                return static_cast<std::size_t>(std::ranges::find(s.reference.indices, index) -
-                                                s.reference.indices.begin());
-            };
-            for (const Index& index : s.reference.indices) {
-                if (index[0] == 0) continue;
-                SimplexBasis::Slope slope{index, place(index), {}};
-                --slope.index[0];
-                for (std::size_t k = 0; k < s.reference.dimension(); ++k) {
-                    Index raised = slope.index;
-                    ++raised[k + 1];
-                    slope.by[k] = place(raised);
-                }
-                s.slopes.push_back(slope);
-            }
-            std::vector<Index> above = s.reference.indices;
-            for (int degree = s.reference.order - 1; degree >= 0; --degree) {
-                SimplexBasis::Level level;
-                std::vector<Index> indices;
-                for (const Index& index : above) {
-                    Index lower = index;
-                    if (lower[0] == 0) continue;
-                    --lower[0];
-                    std::array<std::uint8_t, 4> raised{};
-                    for (std::size_t c = 0; c <= s.reference.dimension(); ++c) {
-                        Index own = lower;
-                        ++own[c];
-                        raised[c] = static_cast<std::uint8_t>(std::ranges::find(above, own) - above.begin());
-                    }
-                    indices.push_back(lower);
-                    level.push_back(raised);
-                }
-                above = std::move(indices);
-                s.levels.push_back(std::move(level));
-            }
+/// The multi-index below each of `above` that has one, and of each the places of those above it.
+SimplexBasis::Level level_below(std::vector<Index>& above, std::size_t corners) {
+    SimplexBasis::Level level;
+    std::vector<Index> indices;
+    for (const Index& index : above) {
+        Index lower = index;
+        if (lower[0] == 0) continue;
+        --lower[0];
+        std::array<std::uint8_t, 4> raised{};
+        for (std::size_t c = 0; c < corners; ++c) {
+            Index own = lower;
+            ++own[c];
+            raised[c] = static_cast<std::uint8_t>(std::ranges::find(above, own) - above.begin());
         }
+        indices.push_back(lower);
+        level.push_back(raised);
+    }
+    above = std::move(indices);
+    return level;
+}
+
+SimplexBasis basis_of(const Reference& reference) {
+    SimplexBasis s{reference, to_bernstein(reference), {}, {}};
+    const auto place = [&](const Index& index) {
+        return static_cast<std::size_t>(std::ranges::find(reference.indices, index) - reference.indices.begin());
+    };
+    for (const Index& index : reference.indices) {
+        if (index[0] == 0) continue;
+        SimplexBasis::Slope slope{index, place(index), {}};
+        --slope.index[0];
+        for (std::size_t k = 0; k < reference.dimension(); ++k) {
+            Index raised = slope.index;
+            ++raised[k + 1];
+            slope.by[k] = place(raised);
+        }
+        s.slopes.push_back(slope);
+    }
+    std::vector<Index> above = reference.indices;
+    for (int degree = reference.order - 1; degree >= 0; --degree)
+        s.levels.push_back(level_below(above, reference.dimension() + 1));
+    return s;
+}
+
+const std::vector<SimplexBasis>& simplices() {
+    static const std::vector<SimplexBasis> all = [] {
+        std::vector<SimplexBasis> made;
+        for (const Reference& reference : simplex_references()) made.push_back(basis_of(reference));
         return made;
     }();
     return all;
@@ -192,14 +172,6 @@ std::vector<Vector<double>> rounded_control_points(const SimplexBasis& s, const 
         for (double& x : p) x /= s.bernstein.denominator;
     }
     return points;
-}
-
-const Reference* simplex_reference(int dimension, std::size_t nodes) {
-    for (const SimplexBasis& s : simplices()) {
-        if (s.reference.nodes == nodes && s.reference.dimension() == static_cast<std::size_t>(dimension))
-            return &s.reference;
-    }
-    return nullptr;
 }
 
 JacobianSign simplex_jacobian_sign(const Reference& of, const Places& places, int bisections) {

@@ -17,7 +17,7 @@ struct ToBernstein {
 };
 
 struct SimplexBasis {
-    Reference reference;
+    const Reference& reference;
     ToBernstein bernstein;
     /// Coefficient i of the derivative by coordinate k: control points `by[k]` less `by[-]`, of index `index`.
     struct Slope {

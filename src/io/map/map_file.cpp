@@ -4,7 +4,7 @@
 
 #include "barycert/environment.hpp"
 #include "core/base/text.hpp"
-#include "core/isoparametric/shape_functions.hpp"
+#include "core/shape_functions.hpp"
 #include "files/input_file.hpp"
 #include "files/output_file.hpp"
 #include "io/map/map_format.hpp"

@@ -2,11 +2,11 @@
 #include <cmath>
 
 #include "core/vtk_cell.hpp"
-#include "mesh/cell_maps.hpp"
+#include "mesh/index/cell_maps.hpp"
 #include "mesh/check/stages.hpp"
 #include "mesh/consistency.hpp"
 #include "mesh/pulling.hpp"
-#include "mesh/warped_sides.hpp"
+#include "mesh/index/warped_sides.hpp"
 
 namespace barycert::check {
 namespace {

@@ -62,28 +62,4 @@ std::vector<NotFinite> not_finite_values(const Mesh& mesh) {
     return all;
 }
 
-namespace {
-
-/// Not for adversaries: it is to tell a mesh from one that was changed since.
-std::uint64_t fingerprint(const Mesh& mesh) {
-    auto state = static_cast<std::uint64_t>(mesh.dimension);
-    const auto add = [&](const auto& values) {
-        const std::span bytes = std::as_bytes(std::span(values));
-        const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-        state = std::rotl(state, 29) * 0x9e3779b97f4a7c15 ^ std::hash<std::string_view>()(text);
-    };
-    add(mesh.points);
-    for (const auto* indices : {&mesh.cells, &mesh.neighbours, &mesh.faces}) add(*indices);
-    return state;
-}
-
-}  // namespace
-
-Certificate::Certificate(Verdict verdict, const Mesh& mesh) : verdict_(verdict), fingerprint_(fingerprint(mesh)) {}
-
-Verdict Certificate::verdict_on(const Mesh& mesh) const {
-    if (verdict_ == Verdict::not_checked || fingerprint(mesh) != fingerprint_) return Verdict::not_checked;
-    return verdict_;
-}
-
 }  // namespace barycert

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <map>
 
-#include "core/isoparametric/shape_functions.hpp"
+#include "core/shape_functions.hpp"
 #include "mesh/pulling.hpp"
 #include "tests/mesh/check/meshes.hpp"
 

@@ -1,4 +1,5 @@
-/// Audits by names of files: of meshes, an earlier audit. Who calls with read_mesh links barycert::io, too.
+/// Audits by names of files: of meshes, an earlier audit. Who calls with read_mesh and certify_mesh
+/// links barycert::io and barycert::check, too.
 ///
 /// Example:
 ///
@@ -47,6 +48,12 @@ namespace barycert {
 /// Reads the mesh of a path: read_mesh() all formats, read_tetgen() those of TetGen and Triangle alone.
 using MeshReader = std::function<Result<Mesh>(const std::string& path, const ReadOptions& options)>;
 
+/// Returns the certificate of a mesh: certify_mesh() checks it.
+using MeshCertifier = std::function<Certificate(const Mesh& mesh, int threads)>;
+inline Certificate certify_mesh(const Mesh& mesh, int threads) {
+    return check_mesh(mesh, {.threads = threads, .verdict_only = true}).certificate;
+}
+
 struct NamedMesh {
     std::string name, path;  ///< as for the reader
 };
@@ -72,7 +79,8 @@ struct PreparedAudit {
 };
 
 /// Errors: those of the choices, of the reader and read_baseline; a mesh without cells; a baseline of other cases.
-Result<PreparedAudit> prepare_audit(const AuditJob& job, const MeshReader& read = read_mesh);
+Result<PreparedAudit> prepare_audit(const AuditJob& job, const MeshReader& read = read_mesh,
+                                    const MeshCertifier& certify = certify_mesh);
 
 /// A case that a family makes, as a witness.
 struct CaseJob {
@@ -91,6 +99,7 @@ struct GapsJob {
     bool check = true;  ///< whether the mesh is a partition
     GapsOptions options = {};
 };
-Result<GapsReport> gaps_file(const GapsJob& job, const MeshReader& read = read_mesh);
+Result<GapsReport> gaps_file(const GapsJob& job, const MeshReader& read = read_mesh,
+                             const MeshCertifier& certify = certify_mesh);
 
 }  // namespace barycert

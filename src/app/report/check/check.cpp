@@ -1,7 +1,8 @@
 // Report on a check of a mesh, for people.
 
 #include "app/report/check/check_data.hpp"
-#include "app/report/check/check_pictures.hpp"
+#include "app/report/check/check_document.hpp"
+#include "app/report/check/check_measures.hpp"
 #include "app/report/check/check_words.hpp"
 #include "app/report/common/document.hpp"
 
@@ -323,35 +324,15 @@ Document fix_document(const FixedMesh& fixed) {
     return d;
 }
 
-/// As a picture of a page.
-std::string surface_figure(const CheckReport& r, const Surface& surface) {
-    const Result<Image> image = draw_checked(r, surface);
-    if (!image) return "";
-    const bool marked = std::ranges::any_of(r.measures.defects, [](DefectSet d) { return d != 0; });
-    return fmt::format(
-        "<figure><img src=\"{}\" alt=\"the surface from two sides\" width=\"{}\" height=\"{}\"/>\n"
-        "<figcaption>From in front and from behind.{}</figcaption></figure>\n",
-        data_uri("image/png", png_text(*image)), image->width, image->height,
-        marked ? " Red: triangles with defects." : "");
-}
+}  // namespace
 
-/// Arguments of a report, beside itself.
-struct CheckSubject {
-    const Mesh& mesh;  ///< of which pictures are drawn
-    const std::string& name;
-    Environment environment = {};
-    const FixedMesh* fixed = nullptr;
-    const Surface* surface = nullptr;  ///< of which a picture is drawn
-};
-
-Document check_document(const CheckReport& r, const CheckSubject& of) {
+Document report::check_document(const CheckReport& r, const CheckSubject& of) {
     const Mesh& mesh = of.mesh;
     const std::string& name = of.name;
     const MeasureDistributions measures(r);
     Document d;
     d.title = name + (r.certified() ? fmt::format(": certified{}", for_straight_sides(r.curved)) : ": NOT certified");
     d.heading = (r.surface ? "Surface certificate of " : "Mesh certificate of ") + name;
-    d.style = check_style;
     // Without a structure there is nothing that could be drawn.
     const bool drawn = r.find(DefectKind::bad_structure) == nullptr && r.cells != 0 &&
                        r.measures.volume.size() == r.cells && mesh.dimension == r.dimension &&
@@ -370,9 +351,8 @@ Document check_document(const CheckReport& r, const CheckSubject& of) {
     tell_conditions(d, r, mesh);
     tell_defects(d, r, true, "Defects and remedies");
     if (of.fixed != nullptr) d.append(fix_document(*of.fixed), For::page);
-    if (drawn) d.add(Pictures{[&r, &mesh] { return exhibits(r, mesh); }}, For::page);
-    if (of.surface != nullptr)
-        d.add(Pictures{[&r, &surface = *of.surface] { return surface_figure(r, surface); }}, For::page);
+    if (drawn && of.exhibits) d.add(Pictures{of.exhibits}, For::page);
+    if (of.surface) d.add(Pictures{of.surface}, For::page);
     tell_contacts(d, r);
     if (r.surface && r.cells != 0) {
         tell_surface(d, r);
@@ -380,7 +360,7 @@ Document check_document(const CheckReport& r, const CheckSubject& of) {
         tell_whole_mesh(d, r);
         tell_measures(d, r, measures);
     }
-    if (drawn) d.add(Pictures{[&r] { return histograms(r); }}, For::page);
+    if (drawn && of.histograms) d.add(Pictures{of.histograms}, For::page);
     tell_defects(d, r, false, "Notes: these do not affect the certificate");
     std::vector<std::string> notes;
     for (const Note& note : r.notes) notes.push_back(message(note));
@@ -401,8 +381,6 @@ Document check_document(const CheckReport& r, const CheckSubject& of) {
     return d;
 }
 
-}  // namespace
-
 std::string check_text(const CheckReport& report, const Mesh& mesh, const std::string& name,
                        const TerminalStyle& style) {
     return written_text([&] { return check_document(report, {mesh, name}); }, style.colour);
@@ -416,16 +394,6 @@ std::string check_json(const CheckReport& report, const std::string& name, const
 
 std::string fix_text(const FixedMesh& fixed, const TerminalStyle& style) {
     return written_text([&] { return fix_document(fixed); }, style.colour);
-}
-
-std::string check_html(const CheckReport& report, const Mesh& mesh, const std::string& name, const FixedMesh* fixed) {
-    return written_page([&] { return check_document(report, {mesh, name, {}, fixed}); });
-}
-
-std::string check_html(const CheckReport& report, const Surface& surface, const std::string& name) {
-    Mesh none;
-    none.index_base = surface.index_base;
-    return written_page([&] { return check_document(report, {none, name, {}, nullptr, &surface}); });
 }
 
 }  // namespace barycert

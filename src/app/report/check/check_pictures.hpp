@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include "app/report/check/check_measures.hpp"
 #include "barycert/certificate.hpp"
 #include "barycert/check.hpp"
 #include "barycert/check_results.hpp"
@@ -86,15 +87,7 @@ inline Vector unit(const Vector& a) {
     return max > std::numeric_limits<double>::min() ? Vector((a / max).normalized()) : Vector(Vector::UnitX());
 }
 
-// Measures of cells, and their histograms.
-
-/// Where bins lie. `given`: as many of `width` from `low` on as make `high`; values beyond (rounding) go to the outer
-/// ones. Else bins of a round width between the least and the greatest finite value, 20 to 50 of them: as they are if
-/// `linear`, and then [low, high] is always shown; in log10 if `logarithmic`, or if `chosen` and max > 20 min.
-struct BinRule {
-    enum class Kind : std::uint8_t { given, linear, logarithmic, chosen } kind = Kind::linear;
-    double low = 0, high = 0, width = 0;
-};
+// Histograms of measures.
 
 struct Bins {
     bool logarithmic = false;  ///< bins are of log10 of the values
@@ -111,20 +104,6 @@ struct Bins {
 
 /// Every value is in one bin or counted apart. Values are not negative.
 Bins bins_of(const std::vector<double>& values, const BinRule& rule);
-
-struct Measure {
-    std::string name;  ///< in tables
-    std::string axis;  ///< the measure, with its unit
-    BinRule rule;
-    std::vector<double> values;
-    std::vector<double> CellMeasures::*of = nullptr;  ///< the measure of the report that the values are, if one is
-    bool max_is_worst = true;
-    std::string_view infinite = "infinite (degenerate cells)";  ///< what an infinite value is
-};
-
-/// Returns the report's measures as people see them: |volume|, the bits of accuracy that shape may cost, ratios,
-/// angles.
-std::vector<Measure> measures_of(const CheckReport& report);
 
 /// A figure a measure: bars, what was counted apart. Counts are logarithmic if the smallest is below 1 % of the
 /// largest.

@@ -28,9 +28,9 @@
 /// Example:
 ///
 ///     const double triangle[] = {0, 0, 3, 0, 0, 3}, point[] = {1, 1}, values[] = {1, 2, 4};
-///     const std::array<double, 4> w = barycentric_weights(Simplex::triangle, triangle, point).value().weights;  // 1/3
-///     each const double value = interpolate(Simplex::triangle, triangle, point, values).value().value; const Gradient
-///     slope = gradient(Simplex::triangle, triangle, values).value();
+///     const std::array<double, 4> w = barycentric_weights(Simplex::triangle, triangle, point).value().weights;
+///     const double value = interpolate(Simplex::triangle, triangle, point, values).value().value;
+///     const Gradient slope = gradient(Simplex::triangle, triangle, values).value();
 #pragma once
 
 #include "barycert/predicates.hpp"

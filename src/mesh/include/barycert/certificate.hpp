@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string_view>
 
 #include "barycert/mesh.hpp"
@@ -26,11 +27,18 @@ constexpr std::string_view name(Verdict v) {
     return v == Verdict::certified ? "certified" : v == Verdict::not_certified ? "not certified" : "not checked";
 }
 
-/// Made by check_mesh; a default-constructed one is `not_checked`. It identifies its mesh by a hash of coordinates,
-/// cells, neighbours and faces.
+/// Made by check_mesh; a default-constructed one is `not_checked`. It identifies its mesh by its fingerprint, a hash of
+/// coordinates, cells, neighbours and faces.
 class Certificate {
 public:
     Certificate() = default;
+
+    /// Returns the certificate of a mesh that check_mesh certified before: `certified` if its fingerprint is among these
+    /// of such meshes, else not_checked. Reads the whole mesh.
+    static Certificate known(const Mesh& mesh, std::span<const std::uint64_t> certified);
+
+    /// Not for adversaries: it tells a mesh from one that was changed since. 0 if not checked.
+    std::uint64_t fingerprint() const { return fingerprint_; }
 
     Verdict verdict() const { return verdict_; }
 

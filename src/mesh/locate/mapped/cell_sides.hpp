@@ -5,7 +5,7 @@
 #pragma once
 
 #include "core/isoparametric/patch.hpp"
-#include "mesh/cell_maps.hpp"
+#include "mesh/index/cell_maps.hpp"
 
 namespace barycert::locate {
 

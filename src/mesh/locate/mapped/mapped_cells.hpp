@@ -25,11 +25,11 @@
 #include "barycert/predicates.hpp"
 #include "core/base/random.hpp"
 #include "core/isoparametric/lanes.hpp"
-#include "mesh/cell_maps.hpp"
+#include "mesh/index/cell_maps.hpp"
 #include "mesh/index/box_tree.hpp"
 #include "mesh/locate/lanes.hpp"
 #include "mesh/locate/lazy.hpp"
-#include "mesh/warped_sides.hpp"
+#include "mesh/index/warped_sides.hpp"
 
 namespace barycert::locate {
 

@@ -7,7 +7,7 @@
 #include "mesh/index/facet_contact.hpp"
 #include "mesh/locate/mapped/mapped_cells.hpp"
 #include "mesh/pulling.hpp"
-#include "mesh/warped_sides.hpp"
+#include "mesh/index/warped_sides.hpp"
 
 namespace barycert::locate {
 

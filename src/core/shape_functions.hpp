@@ -12,6 +12,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 #include <type_traits>
@@ -36,7 +37,9 @@ struct Reference {
 
 /// Returns the reference cell of VTK's linear types 8, 9, and 11 to 14; nullptr for others.
 const Reference* linear_reference(std::uint8_t type);
-/// Simplices with so many nodes, of order 2 to 4, numbered as VTK's Lagrange cells; nullptr of other numbers.
+/// Simplices of order 2 to 4 with nodes numbered as VTK's Lagrange cells: triangles, then tetrahedra.
+const std::array<Reference, 6>& simplex_references();
+/// The one of these with so many nodes; nullptr of other numbers.
 const Reference* simplex_reference(int dimension, std::size_t nodes);
 
 /// Values and derivatives, of derivatives[node][axis], at x, times reference.scale.

@@ -1,10 +1,14 @@
-// Rules that answer cases of their own: all families of cases, on threads. Rules on triangles in space are compared
-// with the oracle; inverse maps with barycert's own, which are proved case by case.
+// Inverse maps of cells, compared with barycert's own, which are proved case by case.
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 
-#include "audit/asking.hpp"
 #include "audit/inverses/reference.hpp"
+#include "audit/rule_loop.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/inverse_rules.hpp"
 #include "barycert/locator.hpp"
 #include "core/base/ulp.hpp"
 #include "core/vtk_cell.hpp"
@@ -13,105 +17,6 @@
 namespace barycert {
 
 using namespace audit;
-
-namespace {
-
-/// Fills audit.results, and sets audit.threads. Groups of cases are the families, once for each of `variants`, in turn.
-/// fits(group, rule): it answers these cases. judge(group, index, each) makes a case and calls each(use) for use(rule,
-/// tally) of these rules, unless nothing is right.
-template <class Rule, class Tally, class Families, class Fits, class Judge>
-void audit_rules(RuleAudit<Rule, Tally>& audit, const Families& families, std::size_t variants, const Fits& fits,
-                 const Judge& judge) {
-    constexpr std::uint64_t block = 256;  // cases that a thread takes at once
-    audit.threads = base::threads_for(audit.threads);
-    const std::vector<Rule>& rules = audit.rules;
-    const std::size_t groups = variants * families.size();
-    const auto blocks = static_cast<std::size_t>((audit.count + block - 1) / block);
-    // Threads merge into them, in any order.
-    std::vector<std::vector<Tally>> tallies(groups, std::vector<Tally>(rules.size()));
-    std::mutex merging;
-    std::uint64_t done = 0;
-    on_threads(audit.threads, groups * blocks, [&](std::size_t work) {
-        const std::size_t group = work / blocks;
-        std::vector<Tally> found(rules.size());
-        const auto each = [&](const auto& use) {
-            for (std::size_t r = 0; r < rules.size(); ++r) {
-                if (fits(group, rules[r])) use(rules[r], found[r]);
-            }
-        };
-        const std::uint64_t first = work % blocks * block;
-        for (std::uint64_t i = first; i < std::min(first + block, audit.count); ++i) judge(group, i, each);
-        const std::lock_guard lock(merging);
-        for (std::size_t r = 0; r < rules.size(); ++r) tallies[group][r].merge(found[r]);
-        done += std::min(block, audit.count - first);
-        if (audit.progress) audit.progress({done, groups * audit.count, families[group % families.size()].name});
-    });
-    audit.results.clear();
-    for (std::size_t r = 0; r < rules.size(); ++r) {
-        RuleResult<Rule, Tally>& result = audit.results.emplace_back();
-        result.rule = rules[r];
-        for (std::size_t group = 0; group < groups; ++group) {
-            if (!fits(group, rules[r])) continue;
-            tallies[group][r].family = group % families.size();
-            result.total.merge(tallies[group][r]);
-            result.families.push_back(tallies[group][r]);
-        }
-    }
-}
-
-/// The right answer; nothing where either answer is right.
-std::optional<double> exact_answer(SurfaceQuestion question, const SurfaceCase& c) {
-    if (question == SurfaceQuestion::distance) return oracle_distance(c.triangles[0], c.point.data());
-    if (question == SurfaceQuestion::meet) return oracle_meet(c.triangles[0], c.triangles[1]);
-    const int side = oracle_side(c.triangles, c.point.data());
-    return side == 0 ? std::nullopt : std::optional<double>(side > 0);
-}
-
-}  // namespace
-
-void SurfaceTally::add(SurfaceQuestion question, double answer, double exact, std::uint64_t index) {
-    const ExactEnvironment environment;
-    const bool is_distance = question == SurfaceQuestion::distance;
-    const bool is_yes = is_distance ? exact == 0 : exact != 0, says_yes = is_distance ? answer == 0 : answer != 0;
-    const std::uint64_t before = wrong_cases();
-    ++cases;
-    yes += is_yes;
-    if (std::isfinite(answer)) {
-        false_yes += says_yes && !is_yes;
-        false_no += !says_yes && is_yes;
-    } else {
-        ++not_finite;
-    }
-    if (is_distance && !is_yes && std::isfinite(answer)) {
-        const double error = base::ulp_error_here(answer, exact);
-        ulps.add(error);
-        worst.include(error, index);
-    }
-    if (wrong_cases() != before) wrong.include(1, index);
-}
-
-void SurfaceTally::merge(const SurfaceTally& other) {
-    using S = SurfaceTally;
-    for (const auto count : {&S::cases, &S::yes, &S::false_yes, &S::false_no, &S::not_finite})
-        this->*count += other.*count;
-    ulps.merge(other.ulps);
-    worst.include(other.worst.value, other.worst.index);
-    wrong.include(other.wrong.value, other.wrong.index);
-}
-
-void audit_surfaces(SurfaceAudit& audit) {
-    const ExactEnvironment environment;
-    if (audit.rules.empty()) audit.rules = surface_rules();
-    const std::vector<SurfaceFamily>& families = surface_families();
-    const auto fits = [&](std::size_t f, const SurfaceRule& rule) { return rule.question == families[f].question; };
-    audit_rules(audit, families, 1, fits, [&](std::size_t f, std::uint64_t i, const auto& each) {
-        const SurfaceCase c = make_surface_case(families[f], audit.seed, i);
-        const std::optional<double> exact = exact_answer(families[f].question, c);
-        if (!exact) return;
-        each(
-            [&](const SurfaceRule& rule, SurfaceTally& tally) { tally.add(rule.question, rule.answer(c), *exact, i); });
-    });
-}
 
 ExactInverse exact_inverse(const InverseCase& c) {
     const ExactEnvironment environment;

@@ -1,4 +1,4 @@
-#include "mesh/warped_sides.hpp"
+#include "mesh/index/warped_sides.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "mesh/cell_maps.hpp"
+#include "mesh/index/cell_maps.hpp"
 
 #include "mesh/mid_edges.hpp"
 #include "mesh/pulling.hpp"

@@ -1,0 +1,20 @@
+// What barycert-check has only a part of: all formats, repaired copies, pages and pictures.
+
+#include "barycert/report.hpp"
+#include "check_parts.hpp"
+
+namespace barycert::cli {
+
+Result<CheckedMesh> checked_files(const CheckJob& job) {
+    return check_files(job);
+}
+
+Result<std::string> checked_page(const CheckedMesh& c, const FixedMesh* fixed) {
+    return c.report.surface ? check_html(c.report, c.surface, c.name) : check_html(c.report, c.mesh, c.name, fixed);
+}
+
+Result<std::string> checked_plot(const CheckedMesh& c, const std::string& path) {
+    return check_plot(c.report, c.name, path);
+}
+
+}  // namespace barycert::cli
