@@ -37,29 +37,3 @@ endfunction()
 function(barycert_cold target)
   target_compile_options(${target} PRIVATE $<$<NOT:$<CONFIG:Debug>>:-O1>)
 endfunction()
-
-# Half of the time of most sources goes into the headers of the standard library: read once a target they cost a quarter. On in
-# the preset release, which builds once; a compiler's cache is better off without.
-if(PROJECT_IS_TOP_LEVEL)
-  option(BARYCERT_PRECOMPILE "Precompile the headers of the standard library" OFF)
-endif()
-
-# barycert_precompile(TARGET): sources with options of their own read headers themselves. Call it from the folder of the target.
-function(barycert_precompile target)
-  if(NOT BARYCERT_PRECOMPILE)
-    return()
-  endif()
-  get_target_property(sources ${target} SOURCES)
-  foreach(source IN LISTS sources)
-    get_source_file_property(options ${source} COMPILE_OPTIONS)
-    if(options)
-      set_property(SOURCE ${source} PROPERTY SKIP_PRECOMPILE_HEADERS ON)
-    endif()
-  endforeach()
-  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    # What GCC 12 imagines in `"text" + std::string` (its bug 105651) it tells of headers that are not the system's any more.
-    target_compile_options(${target} PRIVATE -Wno-array-bounds)
-  endif()
-  target_precompile_headers(${target} PRIVATE <algorithm> <array> <atomic> <cmath> <functional> <limits> <map> <memory> <optional>
-    <ranges> <span> <string> <unordered_map> <variant> <vector>)
-endfunction()

@@ -5,6 +5,7 @@
 #include "audit/recipes.hpp"
 #include "barycert/audit_pictures.hpp"
 #include "barycert/predicates.hpp"
+#include "mesh/consistency.hpp"
 
 namespace barycert {
 
@@ -157,6 +158,8 @@ void fill_errors(MeshMap& map, const PreparedMesh& m, const std::vector<Mesh::In
 
 void fill_map(MeshMap& map, const PreparedMesh& m, const std::vector<Kernel>& kernels, std::uint64_t seed,
               int threads) {
+    if (const char* const wrong = mesh::inconsistency_of_cells(m.mesh, mesh::FieldValues::any))
+        throw Exception({.code = "mesh.inconsistent", .what = std::string("the mesh is inconsistent: ") + wrong});
     MeshFrame frame = best_frame(m);
     set_size(frame, m);
     const std::vector<Mesh::Index> owners = owners_in(m, frame);

@@ -74,10 +74,6 @@ Result<Image> draw_figure(const Figure& figure, FigureCounts* counts) {
     return draw::drawn(*picture, figure.options.background, figure.options.resolution);
 }
 
-bool is_figure_name(std::string_view path) {
-    return base::has_one_of(path, {".png", ".svg", ".pdf"});
-}
-
 Status write_figure(const std::string& path, const Figure& figure, FigureCounts* counts) {
     const ExactEnvironment environment;
     FigureCounts told;

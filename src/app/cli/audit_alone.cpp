@@ -5,14 +5,14 @@
 
 #include "audit_inputs.hpp"
 #include "barycert/tetgen_files.hpp"
-#include "files/suffix.hpp"
+#include "tetgen_alone.hpp"
 
 namespace barycert::cli {
 namespace {
 
 /// Fingerprints of barycert's own meshes, all of them certified (a test of tests/mesh/check); a line each.
 std::vector<std::uint64_t> own_certificates() {
-    std::ifstream file(data_folder() / "meshes" / "certified.txt");
+    std::ifstream file(data_folder() / "certified.txt");
     std::vector<std::uint64_t> all;
     std::string fingerprint, name;
     while (file >> fingerprint >> name) all.push_back(std::stoull(fingerprint, nullptr, 16));
@@ -31,16 +31,11 @@ std::vector<std::string> audited_files(const std::string& path) {
     return tetgen_files(path);
 }
 
-Result<Mesh> read_audited(const std::string& path, const ReadOptions& options) {
-    const std::string suffix = base::suffix_of(path);
-    const bool other = base::file_exists(path) && !base::has_one_of(path, {".node", ".ele"}) &&
-                       !base::file_exists(tetgen_files(path).front());
-    if (other)
-        return file_error(
-            "file.suffix", path, "barycert-audit reads meshes of TetGen and Triangle alone", ".node and .ele",
-            suffix.empty() ? "no suffix" : '"' + suffix + '"',
-            "`barycert audit` reads all formats; among the sources, build it: ./run barycert check " + path);
+Result<Mesh> read_audited(const std::string& path, const ReadOptions& options) try {
+    refuse_other_formats(path, "barycert-audit");
     return read_tetgen(path, options);
+} catch (const Exception& e) {
+    return e.error();
 }
 
 Certificate certify_audited(const Mesh& mesh, int /*threads*/) {

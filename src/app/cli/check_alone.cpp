@@ -6,9 +6,8 @@
 #include "app/jobs/checked_mesh.hpp"
 #include "barycert/tetgen_files.hpp"
 #include "check_parts.hpp"
-#include "files/input_file.hpp"
 #include "files/named_file.hpp"
-#include "files/suffix.hpp"
+#include "tetgen_alone.hpp"
 
 namespace barycert::cli {
 namespace {
@@ -42,6 +41,7 @@ void check_parts(const CheckJob& job) {
 
 Result<CheckedMesh> checked_files(const CheckJob& job) try {
     check_parts(job);
+    refuse_other_formats(job.mesh, "barycert-check");
     const std::vector<std::string> files = tetgen_files(job.mesh);
     std::vector<base::NamedFile> outputs;
     for (const auto& [what, path] : job.reports) outputs.push_back({what, path});

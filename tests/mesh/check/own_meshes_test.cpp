@@ -1,4 +1,4 @@
-// data/meshes/certified.txt: the fingerprints by which barycert-audit, which checks nothing, knows barycert's own meshes.
+// data/certified.txt: the fingerprints by which barycert-audit, which checks nothing, knows barycert's own meshes.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -32,7 +32,7 @@ TEST(OwnMeshes, AreThoseThatAreKnownAsCertified) {
         certified << std::hex << std::setw(16) << std::setfill('0') << certificate.fingerprint() << ' ' << name << '\n';
     }
     std::stringstream known;
-    known << std::ifstream(folder / "certified.txt").rdbuf();
+    known << std::ifstream(std::filesystem::path(BARYCERT_DATA_DIR) / "certified.txt").rdbuf();
     EXPECT_EQ(known.str(), certified.str()) << "what the file should have";
 }
 
