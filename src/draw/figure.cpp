@@ -5,7 +5,7 @@
 #include "draw/files.hpp"
 #include "draw/layout.hpp"
 #include "draw/png/png_file.hpp"
-#include "files/suffix.hpp"
+#include "files/format.hpp"
 
 namespace barycert {
 namespace draw {
@@ -33,11 +33,11 @@ Status write(const std::string& path, Figure figure, FigureCounts& counts) {
     if (!is_figure_name(path))
         return Error{.code = "file.suffix",
                      .what = "pictures have other names",
-                     .expected = ".png, .svg or .pdf",
+                     .expected = base::suffixes_written(base::Use::picture),
                      .found = path};
     if (Status good = check(figure); !good) return good;
     FigureOptions& o = figure.options;
-    const bool pixels = base::has_suffix(path, ".png");
+    const bool pixels = base::kind_of(path) == base::FormatKind::png;
     if (pixels && figure.grid && !o.bar && o.axes == Axes::none && o.title.empty() && o.resolution == 1)
         return write_rows(path, figure, counts);
     if (!pixels) o.resolution = 300 / 96.0, o.samples = std::min(o.samples, 2);  // of more pixels

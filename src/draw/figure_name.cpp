@@ -1,10 +1,10 @@
 #include "barycert/figure.hpp"
-#include "files/suffix.hpp"
+#include "files/format.hpp"
 
 namespace barycert {
 
 bool is_figure_name(std::string_view path) {
-    return base::has_one_of(path, {".png", ".svg", ".pdf"});
+    return base::is_written_as(path, base::Use::picture);
 }
 
 }  // namespace barycert

@@ -10,7 +10,7 @@
 #include "core/base/text.hpp"
 #include "files/embedded.hpp"
 #include "files/output_file.hpp"
-#include "files/suffix.hpp"
+#include "files/format.hpp"
 
 // As it is in data/fonts.
 BARYCERT_EMBED(barycert_font, BARYCERT_FONT);
@@ -251,14 +251,14 @@ Result<Image> drawn(const Picture& picture, Rgba ground, double scale) {
 }
 
 Result<std::string> file_text(std::string_view path, const Picture& picture, Rgba ground, double scale) {
-    if (base::has_suffix(path, ".pdf")) return pdf_text(picture, ground);
-    if (!base::has_suffix(path, ".png")) return svg_text(picture, ground);
+    if (base::kind_of(path) == base::FormatKind::pdf) return pdf_text(picture, ground);
+    if (base::kind_of(path) != base::FormatKind::png) return svg_text(picture, ground);
     const Result<Image> image = drawn(picture, ground, scale);
     return image ? png_text(*image) : Result<std::string>(image.error());
 }
 
 Status write_picture(const std::string& path, const Picture& picture, Rgba ground, double scale) {
-    if (base::has_suffix(path, ".png")) {  // row by row
+    if (base::kind_of(path) == base::FormatKind::png) {  // row by row
         const Result<Image> image = drawn(picture, ground, scale);
         return image ? write_png(path, *image) : Status(image.error());
     }

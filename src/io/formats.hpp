@@ -15,18 +15,19 @@
 #include "barycert/tetgen_files.hpp"
 #include "barycert/vtk_files.hpp"
 #include "core/base/text.hpp"
+#include "files/format.hpp"
 #include "files/input_file.hpp"
 #include "files/suffix.hpp"
 
 namespace barycert::io {
 
-enum class FileFormat : std::uint8_t { csv, npy, node, vtu };
+using base::FormatKind;
 
-/// By the suffix, in any case: .csv .npy .node .vtu; "-" is CSV. Returns an Error that lists them for another suffix.
-Result<FileFormat> format_of(const std::string& path);
+/// The format of rows or points by the suffix: csv, npy, node or vtu; "-" is CSV. Error: another suffix.
+Result<FormatKind> format_of_table(const std::string& path);
 
 /// The same for points: .txt .dat .xyz .tsv are CSV, as pipes and devices; first bytes tell a file without a suffix.
-Result<FileFormat> format_of_points(const std::string& path);
+Result<FormatKind> format_of_points(const std::string& path);
 
 using base::has_one_of;
 using base::has_suffix;
@@ -86,8 +87,7 @@ inline std::string plain_or_packed(const std::string& path) {
 Error unknown_suffix(const std::string& path, std::string what, std::string expected, std::string remedy);
 
 inline bool is_vtk_file(std::string_view path) {
-    return has_one_of(path, {".vtu", ".vtk", ".vtp", ".pvtu", ".pvtp", ".vtm", ".vtpd", ".vtpc", ".pvd", ".series",
-                             ".vti", ".vtr", ".vts"});
+    return base::is_vtk(base::kind_of(path));
 }
 
 // As open_points and open_table. Errors are thrown as Exceptions.
@@ -107,7 +107,7 @@ struct InSpace {
     std::vector<double> points;       ///< 3 coordinates a node; empty: it is a mesh in the plane
     std::vector<Mesh::Index> facets;  ///< as of Surface
 };
-/// By the end of the path: .stl .ply .off .obj .poly .smesh .vtp.
+/// By the end of the path: one of polygons, or .vtp.
 bool is_surface_file(const std::string& path);
 Result<Mesh> read_mesh_in_space(const std::string& path, const ReadOptions& options, InSpace* space);
 Result<Mesh> read_vtk_in_space(const std::string& path, const ReadOptions& options, InSpace* space);
@@ -145,27 +145,16 @@ void cut_into_simplices(Mesh& mesh, const std::string& path);
 /// Adds to `notes`, once, which of these names are lost in a .node or .ele file: it has attribute0, attribute1, ...
 void note_lost_names(const std::vector<std::string>& columns, const char* file, Notes& notes);
 
-struct OtherFormat {
-    std::string_view suffixes;     ///< with their dots, each between blanks; lower case
-    const char* what;              ///< "a mesh of Medit"
-    std::string_view remedy;       ///< how to get at the mesh, with {words} that the path fills
-    const char* meshio = nullptr;  ///< its name there, if it is read by way of meshio: io/converted
-    bool is_mesh = true;           ///< false: `what` says so, as "a table, not a mesh"
-};
-
-/// By the end of the path; nullptr if it is none of these.
-const OtherFormat* other_format_by_suffix(std::string_view path);
+/// One that is not read as a mesh, by the end of the path; nullptr if it is none of these.
+const base::Format* other_format_by_suffix(std::string_view path);
 
 /// By its first bytes; nullptr if they could be anything. `strict`: only what cannot be taken for another file.
-const OtherFormat* other_format_by_content(std::string_view head, std::string_view path, bool strict);
+const base::Format* other_format_by_content(std::string_view head, std::string_view path, bool strict);
 
 std::string_view first_word(std::string_view text, char comment);
 
-/// Compressed, or a .npy file, by its first bytes; else nullptr. No text begins so.
-const OtherFormat* packed_format(std::string_view head);
-
 /// Returns the error that the file is not read, with a remedy.
-Error other_format_error(const OtherFormat& format, const std::string& path);
+Error other_format_error(const base::Format& format, const std::string& path);
 
 /// The command that makes one grid of the pieces of a file, in backquotes.
 std::string one_grid_command(const std::string& path);
@@ -180,9 +169,10 @@ std::string plane_remedy(std::span<const double> points, const std::string& path
 /// The command that writes a file of Gmsh anew, in version 4.1; in backquotes.
 std::string gmsh_command(const std::string& path);
 
-inline constexpr const char* formats_read =
-    "a file of Gmsh (.msh), Medit (.mesh .meshb), VTK (.vtu .vtk .vtp .vti .vtr .vts .pvtu .vtm .pvd .vtu.series "
-    ".vtp.series), TetGen or Triangle (.node .ele), or one that meshio reads";
+/// "a file of Gmsh (.msh), ...": what is read as a mesh.
+inline std::string formats_read() {
+    return "a file of " + base::families_read(base::Use::mesh) + ", or one that meshio reads";
+}
 
 /// Reads a mesh by way of meshio, whose name of the format is `format`: nodes and cells in its order, which is told
 /// with its version and what it printed. Error: run_meshio(); meshio cannot read the file; read_vtk(); what comes back

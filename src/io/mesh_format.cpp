@@ -23,34 +23,32 @@ Error unknown_suffix(const std::string& path, std::string what, std::string expe
                       suffix.empty() ? "no suffix" : '"' + suffix + '"', std::move(remedy));
 }
 
-Result<FileFormat> format_of(const std::string& path) {
-    if (path == "-" || has_suffix(path, ".csv")) return FileFormat::csv;
-    if (has_suffix(path, ".npy")) return FileFormat::npy;
-    if (has_suffix(path, ".node")) return FileFormat::node;
-    if (has_suffix(path, ".vtu")) return FileFormat::vtu;
+Result<FormatKind> format_of_table(const std::string& path) {
+    const FormatKind kind = path == "-" ? FormatKind::csv : base::kind_of(path);
+    if (kind == FormatKind::csv || kind == FormatKind::npy || kind == FormatKind::node || kind == FormatKind::vtu)
+        return kind;
     return unknown_suffix(path, "unknown file suffix",
                           ".csv, .npy, .node or .vtu, or - for CSV from standard input or on standard output",
                           "rename the file, or convert it");
 }
 
-Result<FileFormat> format_of_points(const std::string& path) {
-    if (has_one_of(path, {".txt", ".dat", ".xyz", ".tsv"})) return FileFormat::csv;
-    Result<FileFormat> by_suffix = format_of(path);
-    if (by_suffix && *by_suffix != FileFormat::vtu) return by_suffix;
+Result<FormatKind> format_of_points(const std::string& path) {
+    Result<FormatKind> by_suffix = format_of_table(path);
+    if (by_suffix && *by_suffix != FormatKind::vtu) return by_suffix;
     std::error_code ignored;
     const fs::file_type type = fs::status(path, ignored).type();
     // A pipe, device or socket that is opened here cannot be read again.
     if (type == fs::file_type::fifo || type == fs::file_type::character || type == fs::file_type::socket)
-        return FileFormat::csv;
+        return FormatKind::csv;
     const std::size_t name = path.find_last_of('/') + 1;
     if (type != fs::file_type::regular || exists(path + ".node") || path.find('.', name) != std::string::npos)
         return by_suffix;
     const Result<std::string> head = base::InputFile::head(path, 1024);
     if (!head) return head.error();
-    if (head->starts_with("\x93NUMPY")) return FileFormat::npy;
+    if (head->starts_with("\x93NUMPY")) return FormatKind::npy;
     const bool text = head->find('\0') == std::string::npos && !head->starts_with('<') && !head->starts_with('$') &&
                       !head->starts_with("# vtk");
-    return text ? Result<FileFormat>(FileFormat::csv) : by_suffix;
+    return text ? Result<FormatKind>(FormatKind::csv) : by_suffix;
 }
 
 namespace {
@@ -61,9 +59,10 @@ bool is_tetgen_file(const std::string& path) {
 
 std::optional<MeshFormat> format_by_suffix(const std::string& path) {
     if (is_tetgen_file(path)) return MeshFormat::tetgen;
-    if (is_vtk_file(path)) return MeshFormat::vtk;
-    if (has_suffix(path, ".msh")) return MeshFormat::gmsh;
-    if (has_suffix(path, ".mesh") || has_suffix(path, ".meshb")) return MeshFormat::medit;
+    const FormatKind kind = base::kind_of(path);
+    if (base::is_vtk(kind)) return MeshFormat::vtk;
+    if (kind == FormatKind::gmsh) return MeshFormat::gmsh;
+    if (kind == FormatKind::medit) return MeshFormat::medit;
     return std::nullopt;
 }
 
@@ -79,16 +78,16 @@ std::optional<MeshFormat> format_by_content(std::string_view head) {
 
 Error missing(const std::string& path) {
     Error error{.code = "file.missing", .what = "no such file", .file = path};
-    for (const char* suffix : {".msh", ".vtu", ".vtk", ".pvtu", ".mesh", ".meshb"}) {
-        if (!exists(path + suffix)) continue;
+    for (const std::string& suffix : base::listed_suffixes(&base::Format::read, base::Use::mesh)) {
+        if (!exists(path + suffix) || is_tetgen_file(path + suffix)) continue;
         error.remedy = "there is " + path + suffix + ": name it with its suffix";
         return error;
     }
-    const OtherFormat* const other = other_format_by_suffix(path);
+    const base::Format* const other = other_format_by_suffix(path);
     if (const std::string near = base::near_file(path); !near.empty() && fs::path(path).has_extension()) {
         error.remedy = "did you mean " + near + "?";
     } else if (other != nullptr && other->meshio == nullptr) {
-        error.remedy = std::string("check the path; it would not be read (") + other->what +
+        error.remedy = "check the path; it would not be read (" + std::string(other->what) +
                        "): " + other_format_error(*other, path).remedy;
     } else if (other != nullptr || (format_by_suffix(path) && !is_tetgen_file(path))) {
         error.remedy = "check the path";
@@ -101,7 +100,7 @@ Error missing(const std::string& path) {
 /// Format of a file that is there, and is not TetGen's by a stem: one that is read, or another one.
 struct KnownFormat {
     std::optional<MeshFormat> format;
-    const OtherFormat* other = nullptr;
+    const base::Format* other = nullptr;
 };
 
 Result<KnownFormat> look_at(const std::string& path) {
@@ -109,7 +108,7 @@ Result<KnownFormat> look_at(const std::string& path) {
     if (!head) return head.error();
     const std::optional<MeshFormat> by_content = format_by_content(*head), by_suffix = format_by_suffix(path);
     if (by_content) return KnownFormat{by_content};
-    if (const OtherFormat* other = other_format_by_content(*head, path, by_suffix.has_value()); other != nullptr)
+    if (const base::Format* other = other_format_by_content(*head, path, by_suffix.has_value()); other != nullptr)
         return KnownFormat{{}, other};
     if (by_suffix) return KnownFormat{by_suffix};
     return KnownFormat{{}, other_format_by_suffix(path)};
@@ -121,7 +120,7 @@ Result<MeshFormat> format_of_file(const std::string& path) {
     if (found->format) return *found->format;
     if (found->other != nullptr && found->other->meshio != nullptr) return MeshFormat::by_meshio;
     if (found->other != nullptr) return other_format_error(*found->other, path);
-    return file_error("file.format", path, "barycert does not read this format", formats_read, {},
+    return file_error("file.format", path, "barycert does not read this format", formats_read(), {},
                       "TetGen's files have to be named STEM.node and STEM.ele; save others as .vtu or Gmsh's .msh in "
                       "the program that they are of");
 }
@@ -144,7 +143,7 @@ Result<MeshFormat> mesh_format(const std::string& path) {
     if (fs::is_directory(status) && exists(path + "/constant/polyMesh"))
         return other_format_error(*other_format_by_suffix("case.foam"), path);
     if (fs::is_directory(status))
-        return file_error("file.unreadable", path, "this is a folder", formats_read, {},
+        return file_error("file.unreadable", path, "this is a folder", formats_read(), {},
                           "name the file of the mesh in it, or the stem of TetGen's files");
     if (fs::exists(status)) return format_of_file(path);
     // One of TetGen's files may be missing where others are there: their reader knows which.
@@ -158,14 +157,13 @@ std::string meshio_format(const std::string& path) {
 }
 
 Result<MeshFormat> mesh_output_format(const std::string& path) {
-    if (has_suffix(path, ".msh")) return MeshFormat::gmsh;
-    if (has_suffix(path, ".vtu") || has_suffix(path, ".vtk")) return MeshFormat::vtk;
+    if (const auto format = format_by_suffix(path); format && base::is_written_as(path, base::Use::mesh)) return *format;
     const std::string suffix = suffix_of(path);
     // part.1 is a stem: only what others use as a suffix is refused.
     const bool digits = suffix.find_first_not_of("0123456789", 1) == std::string::npos;
-    if (digits || suffix == ".node" || suffix == ".ele") return MeshFormat::tetgen;
+    if (digits || is_tetgen_file(path)) return MeshFormat::tetgen;
     return unknown_suffix(path, "unknown format of a mesh to be written",
-                          ".vtu, .vtk, .msh, .node, or a stem of TetGen's files",
+                          base::suffixes_written(base::Use::mesh) + ", or a stem of TetGen's files",
                           "name a file with one of these suffixes");
 }
 

@@ -11,61 +11,16 @@
 namespace barycert::io {
 namespace {
 
-// In the order in which they are looked for. Suffixes of several formats (.dat, .e) stand with the likelier one.
-constexpr std::array formats{
-    OtherFormat{" .inp ", "a mesh of Abaqus", "", "abaqus"},
-    OtherFormat{" .xdmf .xmf ", "an XDMF file", "", "xdmf"},
-    OtherFormat{" .med .rmed .mmed ", "a MED file of Salome or Code_Aster", "", "med"},
-    OtherFormat{" .cgns ", "a CGNS file", "{paraview}"},
-    OtherFormat{" .exo .e .ex2 .exii .g ", "an Exodus file", "", "exodus"},
-    OtherFormat{" .vol ", "a mesh of Netgen", "", "netgen"},
-    OtherFormat{" .su2 ", "a mesh of SU2", "", "su2"},
-    OtherFormat{" .unv .universal ", "a universal file of I-deas",
-                "convert it with {gmsh}; it numbers nodes anew, so that values in files of their own do not fit"},
-    OtherFormat{" .bdf .nas .fem ", "a file of Nastran", "", "nastran"},
-    OtherFormat{" .foam .openfoam ", "a case of OpenFOAM", "{paraview}"},
-    OtherFormat{" .xml ", "an XML file, perhaps a mesh of DOLFIN", "", "dolfin-xml"},
-    OtherFormat{" .avs .ucd ", "a mesh of AVS", "", "avsucd"},
-    OtherFormat{" .ugrid ", "a mesh of UGRID", "", "ugrid"},
-    OtherFormat{" .mdpa ", "a mesh of Kratos", "", "mdpa"},
-    OtherFormat{" .f3grid ", "a mesh of FLAC3D", "", "flac3d"},
-    OtherFormat{" .h5m ", "a mesh of MOAB", "", "h5m"},
-    OtherFormat{" .hmf ", "an HMF file", "", "hmf"},
-    OtherFormat{" .post .dato ", "a mesh of PERMAS", "", "permas"},
-    OtherFormat{" .tec .dat ", "a file of Tecplot", "", "tecplot"},
-    OtherFormat{" .cas ", "a case of Fluent", "{paraview}"},
-    OtherFormat{" .off .stl .ply .obj ", "a surface, not a mesh",
-                "check and sample take surfaces; slices, pictures and all else take meshes: if it is closed, fill it "
-                "with `barycert mesh {in}`",
-                nullptr, false},
-    OtherFormat{" .poly .smesh ", "a PLC, not a mesh", "mesh it first with `barycert mesh {in}`", nullptr, false},
-    OtherFormat{" .geo .geo_unrolled .brep .step .stp .iges .igs ", "a geometry, not a mesh",
-                "mesh it with `gmsh -3 {in} -format msh41 -o {msh}` (-2 for triangles)", nullptr, false},
-    OtherFormat{" .vtkhdf ", "a VTKHDF file", "{paraview}; ParaView 5.11 reads version 1 of the format alone"},
-    OtherFormat{" .h5 .hdf5 .hdf ", "an HDF5 file", "if it belongs to an .xdmf file, name that"},
-    OtherFormat{" .nc ", "a NetCDF file", "", "exodus"},
-    OtherFormat{" .tgz ", "a TAR archive", "unpack it with `tar -xzf {in}`"},
-    OtherFormat{" .bz2 ", "a file packed by bzip2", "unpack it with `bzip2 -dc {in} > {unpacked}`"},
-    OtherFormat{" .xz ", "a file packed by xz", "unpack it with `xz -dc {in} > {unpacked}`"},
-    OtherFormat{" .zst ", "a file packed by zstd", "unpack it with `zstd -dc {in} > {unpacked}`"},
-    OtherFormat{" .zip ", "a ZIP archive", "unpack it with `unzip {in}`"},
-    OtherFormat{" .tar ", "a TAR archive", "unpack it with `tar -xf {in}`"},
-    OtherFormat{" .csv .npy .npz .txt ", "a table, not a mesh",
-                "name the mesh first; points go with --points, values with --field NAME=FILE", nullptr, false},
-};
+using base::Format;
+using base::format_with;
 
-const OtherFormat* by_suffix(std::string_view suffix) {
-    const auto is_it = [&](const OtherFormat& format) { return has_word(format.suffixes, suffix); };
-    const auto* const found = std::ranges::find_if(formats, is_it);
-    return found == formats.end() ? nullptr : found;
-}
-
-constexpr OtherFormat fluent{"", "a mesh of Fluent", "", "ansys"};
-constexpr OtherFormat freefem{"", "a mesh of FreeFem",
-                              "make it a file of Medit with {freefem}; a mesh in space with mesh3 and readmesh3"};
-
-constexpr OtherFormat flat_poly{"", "a PLC in the plane, not a mesh",
-                                "mesh it with Triangle, whose .node and .ele are read", nullptr, false};
+// Without suffixes of their own: .msh and .poly are another format's.
+constexpr Format fluent{.what = "a mesh of Fluent", .meshio = "ansys"};
+constexpr Format freefem{.what = "a mesh of FreeFem",
+                         .remedy = "make it a file of Medit with {freefem}; a mesh in space with mesh3 and readmesh3"};
+constexpr Format flat_poly{.what = "a PLC in the plane, not a mesh",
+                           .remedy = "mesh it with Triangle, whose .node and .ele are read",
+                           .is_mesh = false};
 
 /// A count and the dimension 2.
 bool is_flat_poly(std::string_view head) {
@@ -115,12 +70,12 @@ bool is_ucd(std::string_view head) {
 
 /// HDF5, NetCDF and ZIP hold many formats: which, is told by the suffix, if it is that of one of these, each with one
 /// of its suffixes.
-const OtherFormat* container(std::string_view path, std::initializer_list<std::string_view> held,
+const Format* container(std::string_view path, std::initializer_list<std::string_view> held,
                              std::string_view otherwise) {
-    const OtherFormat* const format = other_format_by_suffix(path);
+    const Format* const format = other_format_by_suffix(path);
     const bool is_held =
-        std::ranges::any_of(held, [&](std::string_view suffix) { return by_suffix(suffix) == format; });
-    return is_held ? format : by_suffix(otherwise);
+        std::ranges::any_of(held, [&](std::string_view suffix) { return format_with(suffix) == format; });
+    return is_held ? format : format_with(otherwise);
 }
 
 using base::shell_word;
@@ -166,49 +121,37 @@ std::string_view first_word(std::string_view text, char comment) {
     }
 }
 
-const OtherFormat* other_format_by_suffix(std::string_view path) {
-    const std::string suffix = suffix_of(std::string(without_gz(path)));
-    return suffix.empty() ? nullptr : by_suffix(lower(suffix));
+const Format* other_format_by_suffix(std::string_view path) {
+    const Format* const format = base::format_of(path);
+    return format == nullptr || format->what.empty() ? nullptr : format;
 }
 
-const OtherFormat* packed_format(std::string_view head) {
-    using std::string_view_literals::operator""sv;
-    for (const auto& [bytes, suffix] : {std::pair("BZh"sv, ".bz2"),
-                                        {"\3757zXZ\0"sv, ".xz"},
-                                        {"\x28\xb5\x2f\xfd"sv, ".zst"},
-                                        {"PK\x03\x04"sv, ".zip"},
-                                        {"\x93NUMPY"sv, ".npy"}}) {
-        if (head.starts_with(bytes)) return by_suffix(suffix);
-    }
-    return nullptr;
-}
-
-const OtherFormat* other_format_by_content(std::string_view head, std::string_view path, bool strict) {
-    if (const OtherFormat* packed = packed_format(head); packed != nullptr) return packed;
+const Format* other_format_by_content(std::string_view head, std::string_view path, bool strict) {
+    if (const Format* packed = base::format_that_begins(head); packed != nullptr) return packed;
     if (head.starts_with("\x89HDF\r\n\x1a\n"))
         return container(path, {".med", ".cgns", ".exo", ".vtkhdf", ".h5m", ".hmf", ".cas"}, ".h5");
     if (head.starts_with("CDF\x01") || head.starts_with("CDF\x02") || head.starts_with("CDF\x05"))
         return container(path, {".exo"}, ".nc");
     const std::string_view text = head.starts_with("\xEF\xBB\xBF") ? head.substr(3) : head;
-    if (text.find("<Xdmf") != std::string_view::npos) return by_suffix(".xdmf");
-    if (text.find("<dolfin") != std::string_view::npos) return by_suffix(".xml");
-    if (text.find("FoamFile") != std::string_view::npos) return by_suffix(".foam");
+    if (text.find("<Xdmf") != std::string_view::npos) return format_with(".xdmf");
+    if (text.find("<dolfin") != std::string_view::npos) return format_with(".xml");
+    if (text.find("FoamFile") != std::string_view::npos) return format_with(".foam");
     if (has_suffix(path, ".poly") && is_flat_poly(text)) return &flat_poly;
-    if (text.starts_with("ISO-10303-21")) return by_suffix(".step");
+    if (text.starts_with("ISO-10303-21")) return format_with(".step");
     const bool msh = has_suffix(path, ".msh");
     if (msh && text.starts_with('(')) return &fluent;
     if (msh && is_freefem(text)) return &freefem;
-    if (msh && is_abaqus(text)) return by_suffix(".inp");
-    if (text.starts_with("ply")) return by_suffix(".ply");
+    if (msh && is_abaqus(text)) return format_with(".inp");
+    if (text.starts_with("ply")) return format_with(".ply");
     if (strict) return nullptr;
     const std::string_view word = first_word(text, '%');
-    if (word.starts_with("NDIME=")) return by_suffix(".su2");
-    if (first_word(text, '#') == "mesh3d") return by_suffix(".vol");
-    if (is_abaqus(text)) return by_suffix(".inp");
-    if (is_ucd(text)) return by_suffix(".avs");
-    if (word == "-1") return by_suffix(".unv");
-    if (text.starts_with("OFF") || text.starts_with("solid ")) return by_suffix(".stl");
-    if (word == "SOL" || word == "CEND" || word == "BEGIN") return by_suffix(".bdf");
+    if (word.starts_with("NDIME=")) return format_with(".su2");
+    if (first_word(text, '#') == "mesh3d") return format_with(".vol");
+    if (is_abaqus(text)) return format_with(".inp");
+    if (is_ucd(text)) return format_with(".avs");
+    if (word == "-1") return format_with(".unv");
+    if (text.starts_with("OFF") || text.starts_with("solid ")) return format_with(".stl");
+    if (word == "SOL" || word == "CEND" || word == "BEGIN") return format_with(".bdf");
     return nullptr;
 }
 
@@ -250,14 +193,14 @@ std::string freefem_command(const std::string& path) {
     return "`echo " + shell_word(script) + " | FreeFem++ -nw -f /dev/stdin`";
 }
 
-Error other_format_error(const OtherFormat& format, const std::string& path) {
+Error other_format_error(const Format& format, const std::string& path) {
     std::string remedy =
         fmt::format(fmt::runtime(format.remedy), fmt::arg("in", shell_word(path)), fmt::arg("gmsh", gmsh_command(path)),
                     fmt::arg("msh", shell_word(stem_of(path) + ".msh")), fmt::arg("freefem", freefem_command(path)),
                     fmt::arg("unpacked", shell_word(unpacked_name(path))), fmt::arg("paraview", by_paraview(path)));
     return file_error("file.format", path,
-                      std::string("this is ") + format.what + (format.is_mesh ? ", which is not read" : ""),
-                      formats_read, {}, std::move(remedy));
+                      "this is " + std::string(format.what) + (format.is_mesh ? ", which is not read" : ""),
+                      formats_read(), {}, std::move(remedy));
 }
 
 }  // namespace barycert::io

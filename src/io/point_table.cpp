@@ -59,16 +59,16 @@ Source open_any(const std::string& path, int dimension, const PointOptions& opti
         const bool arrays = !options.keep.empty() || !options.columns.empty();
         return source_of(read_vtk_table(path, arrays, options.nonfinite_points).value());
     }
-    const Result<FileFormat> format = format_of_points(path);
+    const Result<FormatKind> format = format_of_points(path);
     if (format)
-        return (*format == FileFormat::csv   ? open_csv_source
-                : *format == FileFormat::npy ? open_npy_source
+        return (*format == FormatKind::csv   ? open_csv_source
+                : *format == FormatKind::npy ? open_npy_source
                                              : open_node_source)(path, dimension, options);
     // A stem, or the file of a mesh; what is neither is told as a file of points that is not known.
     if (std::ranges::any_of(mesh_files(path), exists))
         return source_of(nodes_of(read_mesh(path, {.faces = false, .neighbours = false}).value()));
     Error unknown = format.error();
-    unknown.expected = "points (.csv .txt .npy .node .vtu .vtp .vtk .vti .vtr .vts, - for CSV from stdin) or a mesh";
+    unknown.expected = "points (" + base::suffix_list_read(base::Use::points) + ", - for CSV from stdin) or a mesh";
     throw Exception(unknown);
 }
 

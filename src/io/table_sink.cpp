@@ -83,13 +83,13 @@ Result<std::unique_ptr<TableSink>> open_table(const std::string& path, const Tab
                           "fields whose columns differ (components are NAME.0, NAME.1, ...)",
                           base::quoted(name) + " twice", "rename a field, or leave it out");
     }
-    const Result<io::FileFormat> kind = io::format_of(path);
-    if (kind && *kind == io::FileFormat::vtu) return io::open_vtu_sink(path, format);
-    if (!kind || *kind == io::FileFormat::node)
+    const Result<io::FormatKind> kind = io::format_of_table(path);
+    if (kind && *kind == io::FormatKind::vtu) return io::open_vtu_sink(path, format);
+    if (!kind || *kind == io::FormatKind::node)
         return file_error("file.suffix", path, "cannot write rows in the format of that suffix",
-                          ".csv, .npy or .vtu, or - for CSV on the standard output",
-                          kind ? "a format for points alone" : kind.error().found, "name a .csv, .npy or .vtu file");
-    return *kind == io::FileFormat::csv ? io::open_csv_sink(path, format) : io::open_npy_sink(path, format);
+                          base::suffixes_written(base::Use::rows) + ", or - for CSV on the standard output",
+                          kind ? "a format for points alone" : kind.error().found, "name a file with one of these suffixes");
+    return *kind == io::FormatKind::csv ? io::open_csv_sink(path, format) : io::open_npy_sink(path, format);
 } catch (const Exception& problem) {
     return problem.error();
 }

@@ -6,19 +6,19 @@ namespace barycert::io::testing {
 namespace {
 
 TEST(Formats, BySuffix) {
-    EXPECT_EQ(io::format_of("-").value(), io::FileFormat::csv);
-    EXPECT_EQ(io::format_of("a/b.c.csv").value(), io::FileFormat::csv);
-    EXPECT_EQ(io::format_of("B.NPY").value(), io::FileFormat::npy);
-    EXPECT_EQ(io::format_of("b.Node").value(), io::FileFormat::node);
-    EXPECT_EQ(io::format_of("b.vtu").value(), io::FileFormat::vtu);
-    const Result<io::FileFormat> other = io::format_of("a/b.vtk");
+    EXPECT_EQ(io::format_of_table("-").value(), io::FormatKind::csv);
+    EXPECT_EQ(io::format_of_table("a/b.c.csv").value(), io::FormatKind::csv);
+    EXPECT_EQ(io::format_of_table("B.NPY").value(), io::FormatKind::npy);
+    EXPECT_EQ(io::format_of_table("b.Node").value(), io::FormatKind::node);
+    EXPECT_EQ(io::format_of_table("b.vtu").value(), io::FormatKind::vtu);
+    const Result<io::FormatKind> other = io::format_of_table("a/b.vtk");
     expect_error(
         other, "a/b.vtk",
         {0, "unknown file suffix", ".csv, .npy, .node or .vtu, or - for CSV from standard input or on standard output",
          "\".vtk\"", "convert"});
-    expect_error(io::format_of("a.csv/b"), "b", {0, "unknown file suffix", nullptr, "no suffix", nullptr});
-    EXPECT_FALSE(io::format_of(""));
-    EXPECT_FALSE(io::format_of("csv"));
+    expect_error(io::format_of_table("a.csv/b"), "b", {0, "unknown file suffix", nullptr, "no suffix", nullptr});
+    EXPECT_FALSE(io::format_of_table(""));
+    EXPECT_FALSE(io::format_of_table("csv"));
 }
 
 TEST(Formats, Sources) {

@@ -52,14 +52,14 @@ a PLC, if it is valid and encloses a region: then TetGen can mesh it. --delaunay
         run_check);
     CheckJob& job = a.job;
     o.text("MESH", job.mesh,
-           "A mesh: TetGen's .node/.ele (with .face and .neigh if present) or Triangle's, Gmsh's .msh, Medit's .mesh "
-           ".meshb, VTK's .vtu .vtk .vtp .pvtu .vtm .pvd .vtu.series .vtp.series; or a surface: .stl .ply .off .obj, "
-           "triangles in space in any of these, or a PLC for TetGen: .poly .smesh")
+           mesh_help() + ", TetGen's with .face and .neigh if present; or a surface or a PLC for TetGen: " +
+               base::suffix_list_read(base::Use::plc) + ", or triangles in space in any of these")
         ->required();
     o.step(job.step);
     o.flag("--delaunay", job.options.delaunay, "Also test exactly whether every interior facet is locally Delaunay");
     o.text("--conforms-to", job.plc,
-           "Also test whether the facets of this PLC (.poly .smesh .off .stl .ply .obj) are unions of faces of cells",
+           "Also test whether the facets of this PLC (" + base::suffix_list_read(base::Use::plc) +
+               ") are unions of faces of cells",
            "PLC");
     o.integer<std::size_t>("--examples", job.options.examples, 0, 1000000, "Max number of places listed per defect");
     o.integer<std::size_t>("--contacts", job.options.contacts, 0, 1000000,
@@ -76,8 +76,9 @@ a PLC, if it is valid and encloses a region: then TetGen can mesh it. --delaunay
     o.text("--picture", job.picture, "Draw a surface from two sides, triangles with defects red: .png");
     auto* const all = o.text("--fix", job.fix,
                              "Write a copy with what has one right answer repaired, and check it: coincident nodes "
-                             "merged, degenerate and duplicate cells dropped, negative cells turned: .vtu .vtk .msh, "
-                             "or TetGen's STEM.node, STEM.ele (.face, .neigh)");
+                             "merged, degenerate and duplicate cells dropped, negative cells turned: " +
+                                 base::suffix_list_written(base::Use::mesh) +
+                                 ", or TetGen's STEM.node, STEM.ele (.face, .neigh)");
     o.number("--merge-within", job.merge_within, 0, "With --fix, merge nodes of cells at most so far apart",
              "DISTANCE");
     o.text("--fix-orientation", job.fix_orientation, "Write a copy with negative cells turned, and no other repair")

@@ -53,7 +53,7 @@ CommandEntry with_names_below_help(CommandEntry program) {
 CommandEntry mesher(const CommandEntry& program) {
     CommandEntry alone = *std::ranges::find(program.commands, "mesh", &CommandEntry::name);
     alone.path = alone.name = "barycert-tetgen";
-    alone.text = "Mesh a PLC (.poly .smesh .off .stl .ply .obj) with TetGen";
+    alone.text = "Mesh a PLC (" + base::suffix_list_read(base::Use::plc) + ") with TetGen";
     return alone;
 }
 

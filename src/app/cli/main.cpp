@@ -78,7 +78,8 @@ int run(int argc, char** argv) {
     // Its options are those of barycert-tetgen, for help and completions; main() has handed all else over.
     barycert::Options of_mesh;
     add_options(
-        *app.add_subcommand("mesh", "Mesh a PLC (.poly .smesh .off .stl .ply .obj) with TetGen: runs barycert-tetgen"),
+        *app.add_subcommand("mesh", "Mesh a PLC (" + base::suffix_list_read(base::Use::plc) +
+                                        ") with TetGen: runs barycert-tetgen"),
         of_mesh);
     add_help(program);
     // After the subcommands, which would take it over.

@@ -37,6 +37,7 @@
 #include "barycert/vtk_files.hpp"
 #include "command.hpp"
 #include "core/base/text.hpp"
+#include "files/format.hpp"
 
 namespace barycert::cli {
 
@@ -88,9 +89,16 @@ inline std::optional<std::vector<std::vector<double>>> segment_of(std::string_vi
     return ends && (*ends)[0].size() == (*ends)[1].size() ? ends : std::nullopt;
 }
 
-inline constexpr const char* mesh_help =
-    "A mesh: TetGen's or Triangle's .node/.ele, Gmsh's .msh, Medit's .mesh .meshb, VTK's .vtu .vtk .vtp .pvtu .vtm "
-    ".pvd .vtu.series .vtp.series; others by way of meshio; any packed as .gz";
+/// What a mesh may be, and lists of suffixes, from the table of formats.
+inline std::string mesh_help() {
+    return "A mesh: of " + base::families_read(base::Use::mesh) + "; others by way of meshio; any packed as .gz";
+}
+inline std::string pictures_help() {
+    return base::suffix_list_written(base::Use::picture);
+}
+inline std::string contours_help() {
+    return base::suffix_list_written(base::Use::surface) + "; a picture: " + pictures_help();
+}
 
 /// Texts that declare options: names, types, helps.
 using Text = const std::string&;
@@ -192,7 +200,7 @@ public:
     }
 
     // Options that several subcommands have.
-    void mesh(std::string& mesh) const { text("MESH", mesh, mesh_help)->required(); }
+    void mesh(std::string& mesh) const { text("MESH", mesh, mesh_help())->required(); }
     void threads(int& threads) const { integer("--threads", threads, 0, 4096, "Number of threads; 0: all"); }
     void curved(Curved& curved) const;
     void cell_interpolation(CellInterpolation& interpolation) const;

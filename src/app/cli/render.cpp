@@ -30,8 +30,8 @@ int run_scene_file(PictureArguments& a) {
 
 void add_outputs(const Options& o, PictureArguments& a, bool required = true) {
     o.text("--output", a.job.output,
-           a.job.picture == PictureKind::mesh ? "The picture: .png .svg .pdf; a page that turns: .html"
-                                              : "The picture: .png")
+           a.job.picture == PictureKind::mesh ? "The picture: " + pictures_help() + "; a page that turns: .html"
+                                              : std::string("The picture: .png"))
         ->required(required);
     a.reports.file(o, "--json", json_summary);
     a.reports.quiet(o, "Print no summary");

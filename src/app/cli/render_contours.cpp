@@ -26,7 +26,7 @@ int run_contour(ContourArguments& a) {
     if (!of_picture.empty() && !a.job.output.empty() && !is_figure_name(a.job.output))
         return fail({.code = "option.unfit",
                      .what = of_picture + " is for pictures",
-                     .remedy = "leave it out, or name a .png, .svg or .pdf file"});
+                     .remedy = "leave it out, or name a file with one of " + pictures_help()});
     return a.reports.summarise(a.job, contour_files, contour_json, contour_text);
 }
 
@@ -87,12 +87,12 @@ void add_iso(const Options& render) {
         "Exit codes: 0 done, an empty surface included; 2 usage or input error, a picture of nothing included.",
         run_iso);
     ContourJob& job = a.job;
-    o.text("MESH", job.mesh, mesh_help);
+    o.text("MESH", job.mesh, mesh_help());
     o.text("--field", job.field,
            "The field of nodes, or what is made of it, as sample names it: NAME.x or NAME.0, |NAME| (at the nodes)",
            "NAME");
     o.parsed("--value", "V", "Its value", "a finite number", job.value, finite);
-    o.text("--output", job.output, "The surface: .vtp .ply .off; a picture: .png .svg .pdf");
+    o.text("--output", job.output, "The surface: " + contours_help());
     add_contour_options(o, a);
     o.text("--colours", job.colours,
            "Picture: the field of nodes or cells that colours the surface; default: none, it is grey", "NAME");
@@ -122,7 +122,7 @@ void add_slice(const Options& render) {
            "Picture: the field of nodes or cells that it shows, or what is made of it, as sample names it: NAME.x or "
            "NAME.0, |NAME|. Surface: carry this one only",
            "NAME");
-    o.text("--output", job.output, "The section: .vtp .ply .off; a picture: .png .svg .pdf")->required();
+    o.text("--output", job.output, "The section: " + contours_help())->required();
     o.integer<std::int64_t>("--width", job.width, 1, 1000000, "Picture: pixels across the section", "PIXELS");
     o.integer("--samples", job.figure.samples, 1, max_samples,
               "Picture: of each pixel, across and up; 1: exact values");

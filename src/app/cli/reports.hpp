@@ -54,8 +54,8 @@ public:
     /// One whose form goes by its suffix.
     void picture(const Options& o, const char* option, const std::string& help) {
         std::string& path = files_.emplace_back(base::NamedFile{option, ""}).path;
-        o.taken(option, "FILE", help + ": .png .svg .pdf; - is SVG on stdout",
-                "a name that ends in .png, .svg or .pdf, or -",
+        o.taken(option, "FILE", help + ": " + pictures_help() + "; - is SVG on stdout",
+                "a name that ends in " + base::suffixes_written(base::Use::picture) + ", or -",
                 [&path](const std::string& name) { return is_figure_name(path = name) || name == "-"; });
     }
     /// --junit, --sarif, --annotations. `failures`: what is reported as failed, as in "broken rules".

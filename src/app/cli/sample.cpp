@@ -66,7 +66,7 @@ int run_resample(Arguments<ResampleJob>& a) {
     if (!of_picture.empty() && !is_figure_name(a.job.output))
         return fail({.code = "option.unfit",
                      .what = of_picture + " needs a picture",
-                     .remedy = "leave it out, or use --output FILE.png, .svg or .pdf"});
+                     .remedy = "leave it out, or name a file with one of " + pictures_help()});
     return run_sampling<ResampleJob, resample_files>(a);
 }
 
@@ -90,8 +90,8 @@ error.)",
     SampleJob& job = a.job;
     o.mesh(job.mesh);
     o.text("--points", job.points,
-           "Points: .csv .txt .npy .node .vtu .vtp .vtk .vti .vtr .vts, or the nodes of another mesh; - is CSV from "
-           "stdin, and so is any pipe");
+           "Points: " + base::suffix_list_read(base::Use::points) +
+               ", or the nodes of another mesh; - is CSV from stdin, and so is any pipe");
     o.text("--columns", job.columns,
            "The columns of the coordinates, by name or by number from 1, such as 2,3,4 or lon,lat,depth; needed where "
            "the file does not name x,y,z and has more columns than the mesh has dimensions",
@@ -115,11 +115,12 @@ error.)",
          if (n) job.line->count = *n;
          return n.has_value();
      })->needs(line);
-    o.text("--output", job.output, "Rows: .csv .npy .vtu; - is CSV on stdout");
+    o.text("--output", job.output, "Rows: " + base::suffix_list_written(base::Use::rows) + "; - is CSV on stdout");
     auto* const plot = o.text(
         "--plot", job.plot,
         "Picture of values over the length from point to point, a curve a field, broken outside the mesh; of a series "
-        "over its times: .png .svg .pdf");
+        "over its times: " +
+            pictures_help());
     o.text("--title", job.figure.title, "What stands above the plot; default: the mesh", "TEXT")->needs(plot);
     o.text("--unit", job.figure.unit, "Of the values, at the plot's axis", "TEXT")->needs(plot);
     add_sampling_options(o, job, a.reports);
@@ -156,7 +157,8 @@ error.)",
              });
     o.text("--onto", job.onto, "Sample at the nodes of this mesh", "MESH2");
     o.text("--output", job.output,
-           "Grids: .vti .npy .csv, pictures .png .svg .pdf; with --onto: .vtu .vtk .msh .node .csv .npy")
+           "Grids: " + base::suffix_list_written(base::Use::grid) + "; with --onto, meshes: " +
+               base::suffix_list_written(base::Use::mesh) + ", or rows: .csv .npy")
         ->required();
     o.figure(job.figure, "Picture: ");
     add_sampling_options(o, job, a.reports);

@@ -2,12 +2,13 @@
 
 #include "barycert/result.hpp"
 #include "barycert/tetgen_files.hpp"
+#include "files/format.hpp"
 #include "files/suffix.hpp"
 
 namespace barycert::cli {
 
 void refuse_other_formats(const std::string& path, const std::string& program) {
-    const bool tetgen = base::has_one_of(path, {".node", ".ele"}) || base::file_exists(tetgen_files(path).front());
+    const bool tetgen = base::is_tetgen(base::kind_of(path)) || base::file_exists(tetgen_files(path).front());
     if (tetgen || !base::file_exists(path)) return;
     const std::string suffix = base::suffix_of(path);
     throw Exception(file_error(

@@ -40,7 +40,7 @@ Exit codes: 0 all rows are right, 1 some are wrong (see --fail-on), 2 usage or i
     VerifyJob& job = a.job;
     o.mesh(job.mesh);
     o.step(job.step);
-    o.text("--results", job.results, "Points with results: .csv .txt .npy .vtu .vtp .vti .vtk; - is CSV from stdin")
+    o.text("--results", job.results, "Points with results: " + base::suffix_list_read(base::Use::points) + "; - is CSV from stdin")
         ->required();
     o.field_files(job.field_files, "--field");
     o.text("--fields", job.fields,

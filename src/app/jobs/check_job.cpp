@@ -7,8 +7,11 @@
 #include "app/jobs/job_files.hpp"
 #include "io/formats.hpp"
 #include "io/polygons/triangles.hpp"
+#include "files/format.hpp"
 
 namespace barycert {
+
+using base::FormatKind;
 namespace {
 
 using jobs::refuse;
@@ -26,14 +29,15 @@ void check_job(const CheckJob& job) {
     if (job.measures == "-")
         refuse_member("option.value", "job.measures", "", "job.measures cannot write to stdout", "", "",
                       "name a file: its data are binary");
-    if (!job.measures.empty() && !base::has_suffix(job.measures, ".vtu") && !base::has_suffix(job.measures, ".vtp"))
+    if (!job.measures.empty() && base::kind_of(job.measures) != FormatKind::vtu &&
+        base::kind_of(job.measures) != FormatKind::vtp)
         refuse_member("file.suffix", "job.measures", job.measures,
                       "job.measures writes VTU files, and of surfaces VTP files", "a name that ends in .vtu", "",
                       "choose another name; job.fix writes other formats");
     if (copy == "-")
         refuse_member("option.value", member, "", member + " cannot write to stdout", "", "",
-                      "name a file, .vtu .vtk .msh, or a stem of TetGen's files");
-    if (!job.picture.empty() && !base::has_suffix(job.picture, ".png"))
+                      "name a file, " + base::suffix_list_written(base::Use::mesh) + ", or a stem of TetGen's files");
+    if (!job.picture.empty() && base::kind_of(job.picture) != FormatKind::png)
         refuse_member("file.suffix", "job.picture", job.picture, "unknown suffix of job.picture", ".png", "",
                       "choose another name");
     std::vector<base::NamedFile> plc, outputs{{"job.measures", job.measures}, {"job.picture", job.picture}};
@@ -44,7 +48,7 @@ void check_job(const CheckJob& job) {
     if (job.merge_within && job.fix.empty())
         refuse_member("option.missing", "job.merge_within", "", "job.merge_within is for job.fix", "", "",
                       "leave it out, or give job.fix FILE");
-    if (job.vtk_data && job.measures.empty() && !copy.ends_with(".vtu") && !copy.ends_with(".vtk"))
+    if (job.vtk_data && job.measures.empty() && !base::is_vtk(base::kind_of(copy)))
         refuse_member("option.unfit", "job.vtk_data", "", "job.vtk_data is for VTK's files", "", "",
                       "leave it out, or give job.measures FILE, or job.fix FILE.vtu");
     if (!job.plc.empty()) plc = base::named_files("the PLC of job.plc", plc_files(job.plc));
@@ -130,7 +134,7 @@ void refuse_options_of_meshes(const CheckJob& job, const char* what) {
     refuse_one(!job.plc.empty(), "job.plc");
     refuse_one(!copy_of(job).path.empty(), copy_of(job).what);
     refuse_one(job.plot, "job.plot");
-    if (!job.measures.empty() && !base::has_suffix(job.measures, ".vtp"))
+    if (!job.measures.empty() && base::kind_of(job.measures) != FormatKind::vtp)
         refuse_member("file.suffix", "job.measures", job.measures, "job.measures writes VTP files of surfaces",
                       "a name that ends in .vtp", "", "choose another name");
 }
@@ -191,7 +195,7 @@ Result<CheckedMesh> check_files(const CheckJob& job) try {
     if (!job.picture.empty())
         refuse_member("option.unfit", "job.picture", job.picture, "job.picture is of surfaces", "", "a mesh",
                       "ParaView shows cells: job.measures FILE.vtu");
-    if (base::has_suffix(job.measures, ".vtp"))
+    if (base::kind_of(job.measures) == FormatKind::vtp)
         refuse_member("file.suffix", "job.measures", job.measures, "job.measures writes VTU files of meshes",
                       "a name that ends in .vtu", "", "choose another name");
     const Mesh& mesh = checked.mesh;

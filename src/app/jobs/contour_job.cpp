@@ -15,8 +15,11 @@
 #include "mesh/sample/quantity/quantities.hpp"
 #include "mesh/surface/parts.hpp"
 #include "mesh/threads/arena.hpp"
+#include "files/format.hpp"
 
 namespace barycert {
+
+using base::Use;
 namespace {
 
 using base::cross, base::dot, base::shortest;
@@ -35,8 +38,9 @@ void check_job(const ContourJob& job) {
         refuse(job.value ? ErrorCode("option.conflict") : ErrorCode("option.missing"), "", "what to cut at",
                "a value or a plane", job.value ? "both" : "neither");
     const bool picture = is_picture(job);
-    if (!picture && !base::has_one_of(job.output, {".vtp", ".ply", ".off"}))
-        jobs::refuse_output(job.output, ".vtp, .ply, .off, .png, .svg or .pdf");
+    if (!picture && !base::is_written_as(job.output, Use::surface))
+        jobs::refuse_output(job.output, "a surface (" + base::suffix_list_written(Use::surface) + ") or a picture (" +
+                                            base::suffix_list_written(Use::picture) + ")");
     for (const auto& [member, given] :
          {std::pair("job.colours", !job.colours.empty()), {"job.range", !!job.figure.range}}) {
         if (!picture && given)

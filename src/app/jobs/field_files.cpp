@@ -10,8 +10,12 @@
 #include "mesh/part.hpp"
 #include "mesh/pulling.hpp"
 #include "mesh/sample/quantity/quantities.hpp"
+#include "files/format.hpp"
 
 namespace barycert::jobs {
+
+using base::FormatKind;
+using base::Use;
 namespace {
 
 constexpr std::string_view cell_prefix = "cell:", point_prefix = "point:";
@@ -68,7 +72,7 @@ Result<Mesh> points_as_mesh(const std::string& path, int dimension, const Error&
 
 /// Whether it has fields of Medit, and no mesh.
 bool is_solution(const std::string& path) {
-    return base::has_one_of(path, {".sol", ".solb"});
+    return base::kind_of(path) == FormatKind::medit_fields;
 }
 
 /// The array file.column of a mesh or surface, named as the field; file.of becomes what it is of.
@@ -162,9 +166,9 @@ void check_label(const Mesh& mesh, const Column& label) {
 }  // namespace
 
 bool is_file_of_a_mesh(const std::string& path) {
-    if (io::is_vtk_file(path) || base::has_one_of(path, {".msh", ".mesh", ".meshb", ".node", ".ele"})) return true;
+    if (base::is_read_as(path, Use::mesh)) return true;
     std::error_code ignored;  // what is no regular file is not opened to look at it
-    return !base::has_one_of(path, {".csv", ".txt", ".dat", ".xyz", ".tsv", ".npy"}) &&
+    return !base::is_read_as(path, Use::field) &&
            std::filesystem::is_regular_file(path, ignored) && io::mesh_format(path);
 }
 

@@ -7,8 +7,12 @@
 #include "app/jobs/field_files.hpp"
 #include "core/base/workers.hpp"
 #include "io/formats.hpp"
+#include "files/format.hpp"
 
 namespace barycert::jobs {
+
+using base::FormatKind;
+using base::Use;
 namespace {
 
 /// At most so many steps stand side by side as columns: they are all in memory.
@@ -63,14 +67,20 @@ void check_step_outputs(const std::vector<base::NamedFile>& inputs, const std::s
 
 }  // namespace
 
-Mesh open_mesh(const MeshJob& job, int threads, const StepChoice& step, CurvedCells& curved, bool list_grids) {
-    tell_stage(job, "reading " + job.mesh);
-    const ReadOptions options{
-        .faces = false, .neighbours = false, .threads = threads, .step = step, .list_grids = list_grids};
-    Mesh mesh = read_mesh(job.mesh, options).value();
+void report_curved(const MeshJob& job, const Mesh& mesh, CurvedCells& curved) {
     const CurvedCells straight = measure_curved(mesh, job.mesh, job.curved).value();
     // Keeps, of several steps, the one with the largest deviation.
     if (straight.max_deviation >= curved.max_deviation) curved = straight;
+}
+
+ReadOptions read_options(int threads, const StepChoice& step, bool list_grids) {
+    return {.faces = false, .neighbours = false, .threads = threads, .step = step, .list_grids = list_grids};
+}
+
+Mesh open_mesh(const MeshJob& job, int threads, const StepChoice& step, CurvedCells& curved, bool list_grids) {
+    tell_stage(job, "reading " + job.mesh);
+    Mesh mesh = read_mesh(job.mesh, read_options(threads, step, list_grids)).value();
+    report_curved(job, mesh, curved);
     return mesh;
 }
 
@@ -125,8 +135,9 @@ void check_files(const MeshJob& job, std::vector<base::NamedFile> more_inputs, s
 
 void check_files(const SamplingJob& job, const std::vector<Step>& steps, std::vector<base::NamedFile> more_inputs,
                  std::vector<base::NamedFile> outputs) {
-    if (!job.weights.empty() && !base::has_suffix(job.weights, ".npz"))
-        refuse_member("file.suffix", "job.weights", job.weights, "unknown suffix of job.weights", ".npz", "",
+    if (!job.weights.empty() && !base::is_written_as(job.weights, Use::weights))
+        refuse_member("file.suffix", "job.weights", job.weights, "unknown suffix of job.weights",
+                      base::suffixes_written(Use::weights), "",
                       "choose another name");
     check_vtk_data(job.vtk_data, job.output);
     std::vector<base::NamedFile> of_steps;
@@ -148,11 +159,12 @@ void check_files(const SamplingJob& job, const std::vector<Step>& steps, std::ve
 
 void check_vtk_data(std::optional<VtkData> data, const std::string& path) {
     if (!data) return;
-    const bool legacy = base::has_suffix(path, ".vtk");
+    const FormatKind kind = base::kind_of(path);
+    const bool legacy = kind == FormatKind::vtk;
     if (legacy && *data != VtkData::raw && *data != VtkData::ascii)
         refuse_member("option.unfit", "job.vtk_data", path, "job.vtk_data: legacy files of VTK know no compression",
                       "raw or ascii", std::string(name(*data)), "name a .vtu file");
-    if (!legacy && !base::has_one_of(path, {".vtu", ".vtp", ".vti"}))
+    if (!legacy && kind != FormatKind::vtu && kind != FormatKind::vtp && kind != FormatKind::vti)
         refuse_member("option.unfit", "job.vtk_data", path, "job.vtk_data is for files of VTK",
                       ".vtu, .vtk, .vtp or .vti", "", "leave it out, or name such a file");
 }

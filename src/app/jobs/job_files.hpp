@@ -107,7 +107,12 @@ inline void tell_stage(const MeshJob& job, const std::string& what, std::uint64_
     if (job.progress) job.progress({.stage = what, .done = done});
 }
 
-/// Reads the mesh of the job, and takes its cells as straight, as far as it may: `curved` says which are not.
+/// Takes the cells of the mesh as straight, as far as the job lets it: `curved` says which are not.
+void report_curved(const MeshJob& job, const Mesh& mesh, CurvedCells& curved);
+
+ReadOptions read_options(int threads, const StepChoice& step, bool list_grids);
+
+/// Reads the mesh of the job, and reports which of its cells are curved.
 Mesh open_mesh(const MeshJob& job, int threads, const StepChoice& step, CurvedCells& curved, bool list_grids = true);
 
 /// The same at the step of the job, with the fields from files.

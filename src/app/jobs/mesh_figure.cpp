@@ -16,6 +16,7 @@
 #include "mesh/pulling.hpp"
 #include "mesh/surface/edges.hpp"
 #include "mesh/surface/parts.hpp"
+#include "files/format.hpp"
 
 namespace barycert::jobs {
 namespace {
@@ -168,7 +169,7 @@ CutOptions MeshFigure::carried() {
 viewer::PageScene MeshFigure::page(const FigureOptions& options) const {
     if (!figure_.arrows.empty() || !figure_.points.empty() || options.labels)
         refuse("option.unfit", "", "pages have no arrows, points or labels", "surfaces and lines", "",
-               "name a .png, .svg or .pdf file");
+               "name a file with one of " + base::suffix_list_written(base::Use::picture));
     viewer::PageScene scene{mesh_, drawn_, {}, {}, shown_.field, nodes_, figure(options)};
     const auto add = [](std::vector<const Field*>& to, const std::vector<Field>& fields) {
         for (const Field& f : fields) to.push_back(&f);
@@ -186,7 +187,7 @@ viewer::PageScene MeshFigure::page(const FigureOptions& options) const {
 FigureCounts MeshFigure::write(const std::string& path, FigureOptions options) const {
     if (options.bar_title.empty()) options.bar_title = colours_.empty() ? show_.iso_field : colours_;
     FigureCounts counts;
-    if (base::has_suffix(path, ".html")) {
+    if (base::is_written_as(path, base::Use::page)) {
         viewer::write_page(path, page(options), counts).value();
     } else {
         write_figure(path, figure(options), &counts).value();

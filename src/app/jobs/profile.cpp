@@ -7,6 +7,7 @@
 #include "core/base/strict_math.hpp"
 #include "draw/axes.hpp"
 #include "draw/files.hpp"
+#include "files/format.hpp"
 
 namespace barycert::jobs {
 namespace {
@@ -160,7 +161,7 @@ namespace barycert {
 Status write_line_plot(const std::string& path, const Sampler& sampler, const PointLine& line,
                        const FigureOptions& options) try {
     const ExactEnvironment environment;
-    if (!is_figure_name(path)) jobs::refuse_output(path, ".png, .svg or .pdf");
+    if (!is_figure_name(path)) jobs::refuse_output(path, base::suffixes_written(base::Use::picture));
     SampleJob job;
     std::tie(job.plot, job.figure) = std::tie(path, options);
     std::vector<double> points;

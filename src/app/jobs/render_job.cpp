@@ -7,8 +7,12 @@
 #include "app/jobs/job_files.hpp"
 #include "app/jobs/mesh_figure.hpp"
 #include "io/formats.hpp"
+#include "files/format.hpp"
 
 namespace barycert {
+
+using base::FormatKind;
+using base::Use;
 namespace {
 
 using jobs::refuse;
@@ -179,7 +183,7 @@ void draw_mesh(const RenderJob& job, RenderReport& report) {
         jobs::tell_stage(job, "drawing");
         figure.add_mesh();
         FigureOptions options = job.figure;
-        if (base::has_suffix(job.output, ".html") && options.title.empty())
+        if (base::is_written_as(job.output, Use::page) && options.title.empty())
             options.title = std::filesystem::path(job.mesh).filename().string();
         const FigureCounts counts = figure.write(job.output, options);
         report.size = counts.size;
@@ -240,9 +244,9 @@ std::vector<base::NamedFile> inputs_of(const RenderJob& job) {
 
 Result<RenderReport> render_files(const RenderJob& job) try {
     const ExactEnvironment environment;
-    const bool mesh = job.picture == PictureKind::mesh, page = base::has_suffix(job.output, ".html");
-    if (mesh ? !is_figure_name(job.output) && !page : !job.output.ends_with(".png"))
-        jobs::refuse_output(job.output, mesh ? ".png, .svg, .pdf or .html" : ".png");
+    const bool mesh = job.picture == PictureKind::mesh, page = base::is_written_as(job.output, Use::page);
+    if (mesh ? !is_figure_name(job.output) && !page : base::kind_of(job.output) != FormatKind::png)
+        jobs::refuse_output(job.output, mesh ? base::suffix_list_written(Use::picture) + " or .html" : ".png");
     jobs::check_outputs(job, inputs_of(job), {{"job.output", job.output}});
     jobs::Stopwatch time;
     RenderReport report;

@@ -8,8 +8,12 @@
 #include "io/formats.hpp"
 #include "io/npy/npy.hpp"
 #include "io/vti/vti.hpp"
+#include "files/format.hpp"
 
 namespace barycert {
+
+using base::FormatKind;
+using base::Use;
 namespace {
 
 using jobs::refuse_member;
@@ -174,7 +178,7 @@ std::array<double, 3> point_of(const Grid& grid, std::uint64_t i) {
 Sink open_grid_sink(const ResampleJob& job, const std::string& path, const TableFormat& format, const Grid& grid,
                     std::optional<FigureCounts>& picture) {
     const std::vector<std::string> columns = format.columns();
-    const bool png = is_figure_name(path), array = base::has_suffix(path, ".npy");
+    const bool png = is_figure_name(path), array = base::kind_of(path) == FormatKind::npy;
     if (!format.carried.empty() && (png || array))
         refuse_label(format.carried.front(), path, "fields",
                      "write .csv, or integers to .vti, or leave the label out of job.fields");
@@ -183,7 +187,7 @@ Sink open_grid_sink(const ResampleJob& job, const std::string& path, const Table
         refuse_member("option.missing", "job.field_files", path, "no field to write", "", "",
                       "add one by job.field_files NAME=FILE; .vti and .csv can be written without fields");
     if (array) return open_array(path, grid, columns.size());
-    if (base::has_suffix(path, ".vti")) return open_vti(path, format, grid);
+    if (base::kind_of(path) == FormatKind::vti) return open_vti(path, format, grid);
     // With the points of the grid, as rows of points from a file have them.
     const auto add_points = [grid, points = std::vector<double>()](TableView& block) mutable {
         const auto d = static_cast<std::size_t>(grid.dimension);
@@ -258,7 +262,7 @@ Grid grid_of(const ResampleJob& a, const Mesh& mesh) {
 }
 
 bool is_rows(const std::string& output) {
-    return output == "-" || base::has_one_of(output, {".csv", ".npy"});
+    return output == "-" || (base::is_written_as(output, Use::rows) && !base::is_written_as(output, Use::mesh));
 }
 
 void check_job(const ResampleJob& job, const std::vector<jobs::Step>& steps) {
@@ -279,8 +283,9 @@ void check_job(const ResampleJob& job, const std::vector<jobs::Step>& steps) {
         if (job.figure.range && !is_figure_name(job.output))
             refuse_member("option.unfit", "job.range", job.output, "job.range needs a picture", "", "",
                           "use job.output FILE.png, or leave job.range out");
-        if (job.output != "-" && !base::has_one_of(job.output, {".csv", ".npy", ".vti", ".png", ".svg", ".pdf"}))
-            jobs::refuse_output(job.output, ".vti, .npy, .csv, .png, .svg or .pdf for a grid, or - for CSV on stdout");
+        if (job.output != "-" && !base::is_written_as(job.output, Use::grid))
+            jobs::refuse_output(job.output,
+                                base::suffixes_written(Use::grid) + " for a grid, or - for CSV on stdout");
         return jobs::check_files(job, steps, {}, {{"job.output", job.output}});
     }
     if (job.figure.range)
@@ -290,8 +295,8 @@ void check_job(const ResampleJob& job, const std::vector<jobs::Step>& steps) {
     if (!is_rows(job.output)) {
         const Result<io::MeshFormat> format = io::mesh_output_format(job.output);
         if (!format)
-            jobs::refuse_output(
-                job.output, ".vtu, .vtk, .msh, .node, .csv or .npy, a stem of TetGen's files, or - for CSV on stdout");
+            jobs::refuse_output(job.output, "a mesh (" + base::suffix_list_written(Use::mesh) +
+                                                ", a stem of TetGen's files), or rows (.csv .npy, - for CSV on stdout)");
         const std::string stem = tetgen_stem(job.output);
         if (*format == io::MeshFormat::tetgen) outputs = {stem + ".node", stem + ".ele"};
     }
@@ -348,7 +353,7 @@ void onto_grid(SampledMesh& mesh, const ResampleJob& job, const std::string& pat
 
 void onto_grid_in_steps(SampledMesh& mesh, const ResampleJob& job) {
     Grid& grid = mesh.report.grid.emplace(grid_of(job, mesh.mesh()));
-    if (base::has_suffix(job.output, ".vti")) grid = as_in_vti(grid);
+    if (base::kind_of(job.output) == FormatKind::vti) grid = as_in_vti(grid);
     mesh.report.from = PointsFrom::grid;
     mesh.for_outputs([&](const std::string& path, bool, bool anew) {
         if (anew && mesh.mesh().is_listed()) {

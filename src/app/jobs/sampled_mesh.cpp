@@ -68,9 +68,14 @@ SampledMesh::SampledMesh(const SamplingJob& of, std::vector<Step> all_steps, std
     report.outside = job.options.outside;
 }
 
-void SampledMesh::open() {
+void SampledMesh::open(std::optional<Mesh> given) {
     Stopwatch watch;
-    mesh_ = read(steps.empty() ? std::nullopt : steps.front().of_mesh);
+    if (given) {
+        mesh_ = std::move(*given);
+        report_curved(job, mesh_, report.curved);
+    } else {
+        mesh_ = read(first_step());
+    }
     add_fields_of_job();
     choose_fields();
     names_of_first_ = names_of_chosen();
@@ -84,13 +89,11 @@ void SampledMesh::open() {
                                 {},
                                 false,
                                 "job.fields"});
-    report.seconds.mesh = watch.lap();
+    report.seconds.mesh += watch.lap();
 }
 
-/// Reads the mesh of the step, or the one that the job asks for.
-Mesh SampledMesh::read(std::optional<std::size_t> step) {
-    return open_mesh(job, job.options.threads, step ? StepChoice{.number = step} : job.step, report.curved,
-                     list_grids_);
+Mesh SampledMesh::read(const StepChoice& step) {
+    return open_mesh(job, job.options.threads, step, report.curved, list_grids_);
 }
 
 void SampledMesh::add_fields_of_job() {
@@ -135,7 +138,7 @@ bool SampledMesh::is_another(const Mesh& mesh) const {
 
 void SampledMesh::check_one_mesh(const std::string& path, const char* member) {
     for (const Step& step : steps) {
-        if (!step.of_mesh || &step == &steps.front() || !is_another(read(step.of_mesh))) continue;
+        if (!step.of_mesh || &step == &steps.front() || !is_another(read(step_of_mesh(step)))) continue;
         refuse_member("series.differs", std::string(member), path,
                       "the mesh changes from step to step, and " + std::string(member) + " is of one mesh", "",
                       "another mesh in step " + step.label, "choose one step: job.step N");
@@ -143,7 +146,7 @@ void SampledMesh::check_one_mesh(const std::string& path, const char* member) {
 }
 
 void SampledMesh::read_mesh_of(const Step& step) {
-    Mesh mesh = read(step.of_mesh);
+    Mesh mesh = read(step_of_mesh(step));
     if (mesh.dimension != mesh_.dimension)
         refuse_member("mesh.dimension", "job.step", job.mesh, "step " + step.label + " has cells of another dimension",
                       std::to_string(mesh_.dimension) + ", as the first one has", std::to_string(mesh.dimension));

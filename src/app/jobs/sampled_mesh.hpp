@@ -27,8 +27,14 @@ public:
     const std::vector<Step> steps;
     SampleReport report = {};
 
-    /// Reads the mesh and the files of fields, and chooses fields.
-    void open();
+    /// Reads the mesh, unless it is given, and the files of fields, and chooses fields.
+    void open(std::optional<Mesh> given = {});
+
+    /// Which step of the mesh that of a series means, and which one comes first.
+    StepChoice step_of_mesh(const Step& step) const {
+        return step.of_mesh ? StepChoice{.number = step.of_mesh} : job.step;
+    }
+    StepChoice first_step() const { return steps.empty() ? job.step : step_of_mesh(steps.front()); }
 
     /// The report, when all is done.
     SampleReport finish() {
@@ -107,7 +113,7 @@ public:
     const std::vector<const Column*>& labels() const { return labels_; }
 
 private:
-    Mesh read(std::optional<std::size_t> step);
+    Mesh read(const StepChoice& step);
     bool is_another(const Mesh& mesh) const;
     std::string names_of_chosen() const;
     void add_fields_of_job();

@@ -6,6 +6,7 @@
 #include "app/jobs/job_files.hpp"
 #include "core/base/nearest_name.hpp"
 #include "io/formats.hpp"
+#include "files/format.hpp"
 
 namespace barycert::jobs {
 namespace {
@@ -100,7 +101,7 @@ std::vector<Step> matches_of(const FieldFile& series) {
 }
 
 bool names_steps(const std::string& path) {
-    return base::has_one_of(path, {".pvd", ".series"});
+    return base::is_read_as(path, base::Use::steps);
 }
 
 /// Refuses a word in braces that is nearly one of the places of steps.

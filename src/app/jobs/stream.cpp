@@ -5,8 +5,6 @@
 #include <cmath>
 #include <set>
 
-#include "barycert/map.hpp"
-#include "io/npz/weights_file.hpp"
 #include "mesh/columns.hpp"
 #include "mesh/locate/batch.hpp"
 
@@ -48,19 +46,18 @@ public:
         if (targets_.weights.empty()) mesh_.let_go_of_mesh();
         blocks_.run([&](BlockOfRows& block) { work(block); }, [&](BlockOfRows& block) { write(block); });
         watch.lap();
-        if (map_) map_->commit().value();
-        if (weights_) weights_->commit().value();
-        if (sink_) sink_->commit().value();
+        outputs_.commit();
         seconds_.write += watch.lap();
     }
 
 private:
     void open() {
-        sink_ = open_(targets_.path);
+        outputs_.sink = open_(targets_.path);
         const Mesh& mesh = mesh_.mesh();
         if (!targets_.map.empty())
-            map_ = MapWriter::open(targets_.map, mesh, mesh_.report.all, build_options(mesh_.job, 0)).value();
-        if (!targets_.weights.empty()) weights_ = io::WeightsFile::open(targets_.weights, mesh.point_count()).value();
+            outputs_.map = MapWriter::open(targets_.map, mesh, mesh_.report.all, build_options(mesh_.job, 0)).value();
+        if (!targets_.weights.empty())
+            outputs_.weights = io::WeightsFile::open(targets_.weights, mesh.point_count()).value();
     }
 
     void work(BlockOfRows& block) const {
@@ -76,7 +73,7 @@ private:
             mesh_.sampler().sample(rows.points, options_, rows, block.first).value();
         if (block.locations) rows.counts.locations = *block.locations;
         if (targets_.known != nullptr) block.located = rows.cells;
-        if (weights_) block.weights = mesh_.weights_of(rows.view());
+        if (outputs_.weights) block.weights = mesh_.weights_of(rows.view());
         mesh_.name_cells(rows);
         if (!source_.located) look_outside(block);
         block.nan_values = count_nan(rows.view());
@@ -116,8 +113,6 @@ private:
             mesh_.report.rows += rows.row_count();
         }
         mesh_.report.nan_values += block.nan_values;
-        if (map_) map_->write(rows).value();
-        if (weights_) write_weights(block.weights, rows);
         if (targets_.known != nullptr) {
             Table& known = targets_.known->emplace_back();
             known.dimension = block.rows.dimension;
@@ -126,19 +121,17 @@ private:
             known.features = block.rows.features;
             known.carried = block.rows.carried;
         }
-        if (sink_) sink_->write(rows).value();
+        outputs_.write(rows, rows.cells, block.weights, numbers_of(rows.cells));
         seconds_.write += time.lap();
         if (!block.last) mesh_.tell(source_.located ? "rows" : "points", block.first + block.size);
     }
 
-    void write_weights(const NodeWeights& weights, const TableView& rows) {
-        std::vector<std::uint8_t> counts(weights.row_count());
-        for (std::size_t i = 0; i < counts.size(); ++i)
-            counts[i] = static_cast<std::uint8_t>(weights.begin[i + 1] - weights.begin[i]);
-        // The cells as users know them.
-        std::vector<Mesh::Index> cells(rows.cells.begin(), rows.cells.end());
-        for (Mesh::Index& cell : cells) cell = mesh_.mesh().cell_number(cell);
-        weights_->write(counts, weights.nodes, weights.weights, cells).value();
+    /// The cells as users know them, where the matrix of weights names them.
+    std::vector<Mesh::Index> numbers_of(std::span<const Mesh::Index> cells) const {
+        std::vector<Mesh::Index> numbers;
+        if (!outputs_.weights) return numbers;
+        for (const Mesh::Index cell : cells) numbers.push_back(mesh_.mesh().cell_number(cell));
+        return numbers;
     }
 
     SampledMesh& mesh_;
@@ -148,12 +141,32 @@ private:
     SampleOptions options_ = without_refusal(mesh_.job.options);
     JobSeconds& seconds_ = mesh_.report.seconds;
     BlockPipeline blocks_{source_, mesh_.job.options.threads, seconds_};
-    Sink sink_;
-    std::optional<MapWriter> map_;
-    std::unique_ptr<io::WeightsFile> weights_;
+    RowOutputs outputs_;
 };
 
 }  // namespace
+
+void RowOutputs::write(const TableView& rows, std::span<const Mesh::Index> cells, const NodeWeights& of_nodes,
+                       std::span<const Mesh::Index> numbers) {
+    if (map) {
+        TableView named = rows;
+        named.cells = cells;
+        map->write(named).value();
+    }
+    if (weights) {
+        std::vector<std::uint8_t> counts(of_nodes.row_count());
+        for (std::size_t i = 0; i < counts.size(); ++i)
+            counts[i] = static_cast<std::uint8_t>(of_nodes.begin[i + 1] - of_nodes.begin[i]);
+        weights->write(counts, of_nodes.nodes, of_nodes.weights, numbers).value();
+    }
+    if (sink) sink->write(rows).value();
+}
+
+void RowOutputs::commit() {
+    if (map) map->commit().value();
+    if (weights) weights->commit().value();
+    if (sink) sink->commit().value();
+}
 
 RowSource rows_of_points(std::unique_ptr<PointSource>& points) {
     const auto read = [&points](std::size_t most, BlockOfRows& block) {

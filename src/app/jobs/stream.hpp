@@ -2,6 +2,8 @@
 #pragma once
 
 #include "app/jobs/sampled_mesh.hpp"
+#include "barycert/map.hpp"
+#include "io/npz/weights_file.hpp"
 
 namespace barycert::jobs {
 
@@ -69,6 +71,18 @@ private:
 };
 
 using Sink = std::unique_ptr<TableSink>;
+
+/// Where rows go: to users, into a map and a matrix of weights; each may be absent.
+struct RowOutputs {
+    Sink sink = {};
+    std::optional<MapWriter> map = {};
+    std::unique_ptr<io::WeightsFile> weights = {};
+
+    /// `cells`: those of the map. `numbers`: those of the matrix.
+    void write(const TableView& rows, std::span<const Mesh::Index> cells, const NodeWeights& of_nodes,
+               std::span<const Mesh::Index> numbers);
+    void commit();
+};
 
 /// Opens what takes rows of the mesh's format, into an output of that name; nullptr: they go nowhere.
 using OpenRows = std::function<Sink(const std::string& path)>;

@@ -37,10 +37,10 @@ void LineReader::skip_mark(bool standard_input) {
     if (head.starts_with("\x93NU"))
         refuse_file("file.format", name_, "this is an NPY file", "text: a point a line", {},
                     "name a file that ends in .npy: a stream or a file of another name is read as CSV");
-    const OtherFormat* const packed = packed_format(head);
+    const base::Format* const packed = base::format_that_begins(head);
     if (head.starts_with("\x1f\x8b") || (packed != nullptr && standard_input))
         refuse_file("file.packed", name_,
-                    packed != nullptr ? std::string("this is ") + packed->what : "this is packed by gzip",
+                    packed != nullptr ? std::string("this is ") + std::string(packed->what) : "this is packed by gzip",
                     "text: a point a line", {}, "unpack it first: gunzip, xz -dc, ...");
     if (packed != nullptr) throw Exception(other_format_error(*packed, name_));
     // A smaller part of the file, as a pipe gives, is decided line by line.

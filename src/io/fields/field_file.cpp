@@ -187,7 +187,7 @@ Result<Field> read_field_file(const std::string& name, const std::string& path, 
                               Notes& notes) {
     return read_guarded(path, [&]() -> Result<Field> {
         const Field field{.name = name, .components = 1, .data = {}};
-        if (has_suffix(path, ".npy")) return read_npy(field, path, column, notes);
+        if (base::kind_of(path) == FormatKind::npy) return read_npy(field, path, column, notes);
         if (!column.empty()) return read_csv_column(field, path, column);
         const auto rows_in = [&](std::string_view bytes) {
             try {

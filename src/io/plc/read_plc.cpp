@@ -179,19 +179,19 @@ namespace barycert {
 using namespace io;
 
 std::vector<std::string> plc_files(const std::string& path) {
-    const std::filesystem::path p(base::without_gz(path));
-    if (p.extension() != ".poly" && p.extension() != ".smesh") return {path};
+    const base::FormatKind kind = base::kind_of(path);
+    if (kind != base::FormatKind::poly && kind != base::FormatKind::smesh) return {path};
     return {path, node_path_of(path)};
 }
 
 Result<Plc> read_plc(const std::string& path) try {
     const ExactEnvironment environment;
-    const std::string extension = std::filesystem::path(without_gz(path)).extension().string();
-    if (std::find(plc_extensions.begin(), plc_extensions.end(), extension) == plc_extensions.end())
-        return file_error("file.suffix", path, "unknown kind of PLC", "one of .poly .smesh .off .stl .ply .obj",
-                          extension.empty() ? "no extension" : extension);
-    const bool smesh = extension == ".smesh";
-    Plc plc = smesh || extension == ".poly" ? read_poly(path, smesh) : plc_of(read_polygons(path));
+    const FormatKind kind = base::kind_of(path);
+    if (!base::is_read_as(path, base::Use::plc))
+        return unknown_suffix(path, "unknown kind of PLC", "one of " + base::suffix_list_read(base::Use::plc),
+                              "choose another file");
+    Plc plc = kind == FormatKind::poly || kind == FormatKind::smesh ? read_poly(path, kind == FormatKind::smesh)
+                                                                    : plc_of(read_polygons(path));
     if (plc.facets.empty()) return file_error("mesh.empty", path, "nothing to mesh: the PLC has no facets");
     if (plc.point_count() < 4) return file_error("mesh.empty", path, "nothing to mesh: a PLC needs four nodes");
     return plc;

@@ -117,10 +117,10 @@ std::string read_surface_text(const std::string& path, Separators separators,
         const Status read = status_of([&] { check(in); });
         return in.rest().empty() ? Status(Done{}) : read;
     };
-    const base::Text certain = binary || has_suffix(path, ".stl") ? base::Text::none : base::Text::all;
+    const base::Text certain = binary || base::kind_of(path) == FormatKind::stl ? base::Text::none : base::Text::all;
     std::string text = base::read_file(path, base::longest_pipe, certain, header).value();
     if (text.empty()) refuse_file("file.empty", path, "cannot read", "a PLC", "an empty file");
-    if (const OtherFormat* packed = packed_format(text); packed != nullptr)
+    if (const base::Format* packed = base::format_that_begins(text); packed != nullptr)
         throw Exception(other_format_error(*packed, path));
     if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);  // byte order mark
     return text;

@@ -4,18 +4,20 @@
 namespace barycert::io {
 
 bool is_binary_surface(std::string_view path, std::string_view beginning, std::size_t size) {
-    if (has_suffix(path, ".stl")) return is_binary_stl(beginning, size, std::string(path));
-    return has_suffix(path, ".ply") && beginning.substr(0, 200).find("\nformat binary") != std::string_view::npos;
+    const FormatKind kind = base::kind_of(path);
+    if (kind == FormatKind::stl) return is_binary_stl(beginning, size, std::string(path));
+    return kind == FormatKind::ply && beginning.substr(0, 200).find("\nformat binary") != std::string_view::npos;
 }
 
 Polygons read_polygons(const std::string& path) {
+    const FormatKind kind = base::kind_of(path);
     const auto read = [&](PlcText& in) {
-        return has_suffix(path, ".off")   ? read_off(in)
-               : has_suffix(path, ".obj") ? read_obj(in)
-               : has_suffix(path, ".stl") ? read_stl(in)
+        return kind == FormatKind::off   ? read_off(in)
+               : kind == FormatKind::obj ? read_obj(in)
+               : kind == FormatKind::stl ? read_stl(in)
                                           : read_ply(in);
     };
-    const Separators separators = has_suffix(path, ".stl") ? Separators::blanks_alone : Separators::blanks;
+    const Separators separators = kind == FormatKind::stl ? Separators::blanks_alone : Separators::blanks;
     const std::string text = read_surface_text(path, separators, read);
     PlcText in(path, text, text.size(), separators);
     Polygons all = read(in);

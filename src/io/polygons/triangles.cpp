@@ -35,15 +35,16 @@ Surface surface_of(Mesh mesh, InSpace space) {
 }
 
 bool is_polygons_file(const std::string& path) {
-    return std::ranges::any_of(plc_extensions, [&](std::string_view one) { return has_suffix(path, one); });
+    return base::is_read_as(path, base::Use::plc);
 }
 
 bool is_plc_file(const std::string& path) {
-    return has_suffix(path, ".poly") || has_suffix(path, ".smesh");
+    const FormatKind kind = base::kind_of(path);
+    return kind == FormatKind::poly || kind == FormatKind::smesh;
 }
 
 bool is_surface_file(const std::string& path) {
-    return is_polygons_file(path) || has_suffix(path, ".vtp");
+    return is_polygons_file(path) || base::kind_of(path) == FormatKind::vtp;
 }
 
 Surface surface_of(Polygons polygons, const std::string& path) {

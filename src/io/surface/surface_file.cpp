@@ -134,10 +134,12 @@ Result<SurfaceFile> write_surface(const Surface& surface, const std::string& pat
     const ExactEnvironment environment;
     if (const char* const fault = io::fault_of(surface); fault != nullptr)
         return file_error("surface.inconsistent", path, "the surface is inconsistent", {}, fault);
-    if (base::has_suffix(path, ".vtp")) return io::write_vtp(surface, path, data);
-    if (base::has_suffix(path, ".ply")) return io::write_ply(surface, path);
-    if (base::has_suffix(path, ".off")) return io::write_off(surface, path);
-    return io::unknown_suffix(path, "unknown suffix of a surface", ".vtp, .ply or .off", "choose another name");
+    const base::FormatKind kind = base::kind_of(path);
+    if (kind == base::FormatKind::vtp) return io::write_vtp(surface, path, data);
+    if (kind == base::FormatKind::ply) return io::write_ply(surface, path);
+    if (kind == base::FormatKind::off) return io::write_off(surface, path);
+    return io::unknown_suffix(path, "unknown suffix of a surface", base::suffixes_written(base::Use::surface),
+                              "choose another name");
 }
 
 }  // namespace barycert

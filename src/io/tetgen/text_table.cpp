@@ -170,7 +170,7 @@ void parse_in_order(TextTable& table) {
 }
 
 void read_header(TextTable& table, std::span<const char* const> header_names) {
-    if (const OtherFormat* packed = packed_format(table.bytes); packed != nullptr)
+    if (const base::Format* packed = base::format_that_begins(table.bytes); packed != nullptr)
         throw Exception(other_format_error(*packed, table.file));
     Scanner scanner{table.begin(), table.end()};
     if (table.bytes.starts_with("\xEF\xBB\xBF")) scanner.at += 3;

@@ -402,8 +402,9 @@ Status write_vtu(const Mesh& mesh, const std::string& path, VtkData data) {
 }
 
 Status write_vtk(const Mesh& mesh, const std::string& path, VtkData data) {
-    if (path.ends_with(".vtu")) return write_vtu(mesh, path, data);
-    if (!path.ends_with(".vtk"))
+    const base::FormatKind kind = base::kind_of(path);
+    if (kind == base::FormatKind::vtu) return write_vtu(mesh, path, data);
+    if (kind != base::FormatKind::vtk)
         return file_error("file.suffix", path, "unknown file suffix", ".vtu or .vtk", {}, "use one of these suffixes");
     if (data != VtkData::raw && data != VtkData::ascii)
         return file_error("option.unfit", path, "legacy files of VTK (.vtk) know no compression", "raw or ascii",

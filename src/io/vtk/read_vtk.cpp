@@ -199,9 +199,14 @@ std::vector<SeriesStep> steps_of(std::span<const CollectionFile> files) {
 /// Kind of blocks that make the mesh: unstructured grids; where there are none, structured ones; else polygons.
 enum class GridKind : std::uint8_t { unstructured, structured, polygons };
 
+bool is_structured(FormatKind kind) {
+    return kind == FormatKind::vti || kind == FormatKind::vtr || kind == FormatKind::vts;
+}
+
 GridKind kind_of_block(const std::string& path) {
-    if (has_one_of(path, {".vtp", ".pvtp"})) return GridKind::polygons;
-    return has_one_of(path, {".vti", ".vtr", ".vts"}) ? GridKind::structured : GridKind::unstructured;
+    const FormatKind kind = base::kind_of(path);
+    if (kind == FormatKind::vtp || kind == FormatKind::pvtp) return GridKind::polygons;
+    return is_structured(kind) ? GridKind::structured : GridKind::unstructured;
 }
 
 /// Chooses the kind by the files, or those that they name.
@@ -209,7 +214,9 @@ GridKind blocks_of_mesh(std::span<const CollectionFile> files) {
     GridKind kind = GridKind::polygons;
     for (const CollectionFile& file : files) {
         for (const std::string& own : vtk_mesh_files(file.path)) {
-            if (has_one_of(own, {".vtu", ".vtk", ".vti", ".vtr", ".vts"})) kind = std::min(kind, kind_of_block(own));
+            const FormatKind of_file = base::kind_of(own);
+            if (of_file == FormatKind::vtu || of_file == FormatKind::vtk || is_structured(of_file))
+                kind = std::min(kind, kind_of_block(own));
         }
     }
     return kind;
@@ -342,7 +349,7 @@ Result<std::size_t> chosen_step(const std::vector<SeriesStep>& steps, const Step
 
 Error no_series(const std::string& path) {
     return file_error("series.none", path, "a step is chosen, and this is no series of steps",
-                      "a .pvd, .vtu.series or .vtp.series file", {}, "leave --step and --time out");
+                      "one of " + base::suffix_list_read(base::Use::steps), {}, "leave --step and --time out");
 }
 
 }  // namespace barycert::io
@@ -362,7 +369,8 @@ Result<std::vector<SeriesStep>> read_series(const std::string& path) {
 
 std::vector<std::string> vtk_mesh_files(const std::string& path) {
     std::vector<std::string> all{path};
-    if (io::has_word(".vtu .vtk .vtp .vti .vtr .vts", std::filesystem::path(path).extension().string())) return all;
+    const base::FormatKind kind = base::kind_of(path);
+    if (base::is_vtk(kind) && kind <= base::FormatKind::vts) return all;  // the kinds that name no other files
     std::set<std::string> known{path};
     for (std::size_t i = 0; i < all.size(); ++i) {
         std::optional<io::Collection> named;
@@ -377,7 +385,7 @@ std::vector<std::string> vtk_mesh_files(const std::string& path) {
 
 Result<io::PointTable> io::read_vtk_table(const std::string& path, bool arrays, NonfinitePoints nonfinite) {
     // A legacy file has no list of its arrays.
-    return read_table(path, 3, arrays || has_suffix(path, ".vtk"), nullptr, true, nonfinite == NonfinitePoints::error);
+    return read_table(path, 3, arrays || base::kind_of(path) == FormatKind::vtk, nullptr, true, nonfinite == NonfinitePoints::error);
 }
 
 Result<Mesh> io::read_vtk_in_space(const std::string& path, const ReadOptions& options, InSpace* space) {

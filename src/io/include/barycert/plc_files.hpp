@@ -12,17 +12,13 @@
 ///     const CheckReport report = check_plc(plc);
 #pragma once
 
-#include <array>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "barycert/plc.hpp"
 #include "barycert/result.hpp"
 
 namespace barycert {
-
-inline constexpr std::array<std::string_view, 6> plc_extensions{".poly", ".smesh", ".off", ".stl", ".ply", ".obj"};
 
 /// The paths of the files that the PLC may be in: `path`, and STEM.node beside STEM.poly or STEM.smesh.
 std::vector<std::string> plc_files(const std::string& path);
