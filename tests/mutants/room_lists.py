@@ -65,8 +65,8 @@ SAMPLE = [
     ("grid/grid.cpp", "if (low[k] + (steps + 1) * spacing[k] <= high[k]) ++steps;", "", "a quotient rounded down"),
     ("grid/grid.cpp", "while (steps > 0 && low[k] + steps * spacing[k] > high[k]) --steps;", "", "a quotient rounded up"),
     ("grid/grid.cpp", "if (i == counts[axis] - 1 && i != 0) return last[axis];", "", "the last coordinate as a sum"),
-    ("grid/resample.cpp", "std::upper_bound(first, layers.end(), high)", "std::lower_bound(first, layers.end(), high)", "a layer on a cell's top"),
-    ("grid/resample.cpp", "* scale - slack, to", "* scale, to", "room for rounding"),
+    ("grid/slab_cells.hpp", "std::upper_bound(first, layers.end(), high)", "std::lower_bound(first, layers.end(), high)", "a layer on a cell's top"),
+    ("grid/slab_cells.hpp", "* scale - slack, to", "* scale, to", "room for rounding"),
     ("points/near_piece.hpp", "std::max_element(of_corner", "std::min_element(of_corner", "a cell's least weight as the rest"),
 ]
 AUDIT = [
