@@ -24,8 +24,9 @@ function(barycert_precompile target kind)
     endif()
   endforeach()
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    # What GCC 12 imagines in `"text" + std::string` (its bug 105651) it tells of headers that are not the system's any more.
-    target_compile_options(${target} PRIVATE -Wno-array-bounds)
+    # What GCC 12 imagines in inlined code of the standard library (as its bug 105651) it tells of headers that are not the system's
+    # any more.
+    target_compile_options(${target} PRIVATE -Wno-array-bounds -Wno-free-nonheap-object -Wno-maybe-uninitialized -Wno-stringop-overread)
   endif()
   get_target_property(links ${target} LINK_LIBRARIES)
   if(links MATCHES "CGAL")

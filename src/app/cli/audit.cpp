@@ -1,6 +1,6 @@
 // barycert audit: run kernels over families of cases against the oracle and report.
 
-#include "audit_inputs.hpp"
+#include "app/cli/audit_inputs.hpp"
 
 namespace barycert::cli {
 namespace {

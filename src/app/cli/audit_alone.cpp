@@ -3,9 +3,9 @@
 
 #include <fstream>
 
-#include "audit_inputs.hpp"
+#include "app/cli/audit_inputs.hpp"
 #include "barycert/tetgen_files.hpp"
-#include "tetgen_alone.hpp"
+#include "app/cli/tetgen_alone.hpp"
 
 namespace barycert::cli {
 namespace {

@@ -1,4 +1,4 @@
-#include "audit_inputs.hpp"
+#include "app/cli/audit_inputs.hpp"
 
 #include <cstdlib>
 #include <filesystem>

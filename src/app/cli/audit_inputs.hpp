@@ -5,7 +5,7 @@
 
 #include "barycert/audit_job.hpp"
 #include "barycert/audit_report.hpp"
-#include "reports.hpp"
+#include "app/cli/reports.hpp"
 
 namespace barycert::cli {
 

@@ -1,6 +1,6 @@
 // What barycert-audit has only a part of: all formats of meshes, checks of them, audits of rules.
 
-#include "audit_inputs.hpp"
+#include "app/cli/audit_inputs.hpp"
 #include "barycert/inverse_rules.hpp"
 #include "barycert/mesh_files.hpp"
 #include "barycert/rule_audit.hpp"

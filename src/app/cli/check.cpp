@@ -1,8 +1,8 @@
 // barycert check: is a mesh a partition of its domain? Proved in exact arithmetic, or the reasons why not.
 
 #include "app/report/check/check_words.hpp"
-#include "check_parts.hpp"
-#include "reports.hpp"
+#include "app/cli/check_parts.hpp"
+#include "app/cli/reports.hpp"
 
 namespace barycert::cli {
 namespace {

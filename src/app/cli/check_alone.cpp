@@ -5,9 +5,9 @@
 
 #include "app/jobs/checked_mesh.hpp"
 #include "barycert/tetgen_files.hpp"
-#include "check_parts.hpp"
+#include "app/cli/check_parts.hpp"
 #include "files/named_file.hpp"
-#include "tetgen_alone.hpp"
+#include "app/cli/tetgen_alone.hpp"
 
 namespace barycert::cli {
 namespace {

@@ -1,7 +1,7 @@
 // What barycert-check has only a part of: all formats, repaired copies, pages and pictures.
 
 #include "barycert/report.hpp"
-#include "check_parts.hpp"
+#include "app/cli/check_parts.hpp"
 
 namespace barycert::cli {
 

@@ -1,4 +1,4 @@
-#include "command.hpp"
+#include "app/cli/command.hpp"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 #include <cctype>
 
 #include "draw/colour_map.hpp"
-#include "options.hpp"
+#include "app/cli/options.hpp"
 
 namespace barycert::cli {
 namespace {

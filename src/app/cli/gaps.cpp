@@ -1,6 +1,6 @@
 // barycert gaps: which points of a mesh a kernel loses between cells, gives to several, or to a wrong one.
 
-#include "audit_inputs.hpp"
+#include "app/cli/audit_inputs.hpp"
 
 namespace barycert::cli {
 namespace {

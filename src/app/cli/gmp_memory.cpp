@@ -9,7 +9,7 @@
 #include <new>
 
 #include "app/options/want_of_memory.hpp"
-#include "command.hpp"
+#include "app/cli/command.hpp"
 #include "files/output_file.hpp"
 
 namespace barycert::cli {

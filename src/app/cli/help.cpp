@@ -9,7 +9,7 @@
 
 #include "app/options/command_table.hpp"
 #include "core/base/nearest_name.hpp"
-#include "options.hpp"
+#include "app/cli/options.hpp"
 
 namespace barycert::cli {
 namespace {

@@ -17,7 +17,7 @@
 #include "core/base/nearest_name.hpp"
 #include "files/input_file.hpp"
 #include "files/output_file.hpp"
-#include "options.hpp"
+#include "app/cli/options.hpp"
 
 namespace barycert::cli {
 namespace {

@@ -1,4 +1,4 @@
-#include "options.hpp"
+#include "app/cli/options.hpp"
 
 #include "app/options/command_table.hpp"
 #include "io/formats.hpp"

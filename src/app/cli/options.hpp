@@ -35,7 +35,7 @@
 #include "barycert/verify.hpp"
 #include "barycert/verify_job.hpp"
 #include "barycert/vtk_files.hpp"
-#include "command.hpp"
+#include "app/cli/command.hpp"
 #include "core/base/text.hpp"
 #include "files/format.hpp"
 

@@ -1,7 +1,7 @@
 // barycert render: pictures of scenes and meshes; the rest of its subcommands have files of their own.
 
 #include "core/base/nearest_name.hpp"
-#include "reports.hpp"
+#include "app/cli/reports.hpp"
 
 namespace barycert::cli {
 namespace {

@@ -1,6 +1,6 @@
 // barycert render iso, slice: where a field has a value, in a mesh or on one segment; a plane through a mesh.
 
-#include "reports.hpp"
+#include "app/cli/reports.hpp"
 
 namespace barycert::cli {
 namespace {

@@ -1,6 +1,6 @@
 // barycert render drift, barycert render texels: what the shortcuts of rasterisers cost, against exact arithmetic.
 
-#include "audit_inputs.hpp"
+#include "app/cli/audit_inputs.hpp"
 
 namespace barycert::cli {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "audit_inputs.hpp"
+#include "app/cli/audit_inputs.hpp"
 #include "core/base/nearest_name.hpp"
 
 namespace barycert::cli {

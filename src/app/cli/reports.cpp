@@ -1,4 +1,4 @@
-#include "reports.hpp"
+#include "app/cli/reports.hpp"
 
 #include <unistd.h>
 

@@ -6,7 +6,7 @@
 
 #include "barycert/report.hpp"
 #include "files/named_file.hpp"
-#include "options.hpp"
+#include "app/cli/options.hpp"
 
 namespace barycert::cli {
 

@@ -1,7 +1,7 @@
 // barycert sample, resample: the fields of a mesh at points, on a regular grid, or at the nodes of another mesh.
 
 #include "core/base/nearest_name.hpp"
-#include "reports.hpp"
+#include "app/cli/reports.hpp"
 
 namespace barycert::cli {
 namespace {

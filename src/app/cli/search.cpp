@@ -4,7 +4,7 @@
 
 #include <tuple>
 
-#include "audit_inputs.hpp"
+#include "app/cli/audit_inputs.hpp"
 
 namespace barycert::cli {
 namespace {

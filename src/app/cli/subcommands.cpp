@@ -1,6 +1,6 @@
 // The subcommands of barycert, in the order of its help. barycert-audit and barycert-check have those alone that they are
 // named after.
-#include "command.hpp"
+#include "app/cli/command.hpp"
 
 namespace barycert::cli {
 

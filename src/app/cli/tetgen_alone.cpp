@@ -1,4 +1,4 @@
-#include "tetgen_alone.hpp"
+#include "app/cli/tetgen_alone.hpp"
 
 #include "barycert/result.hpp"
 #include "barycert/tetgen_files.hpp"

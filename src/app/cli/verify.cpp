@@ -1,6 +1,6 @@
 // barycert verify: results of any tool, held against the exact ones.
 
-#include "reports.hpp"
+#include "app/cli/reports.hpp"
 
 namespace barycert::cli {
 namespace {

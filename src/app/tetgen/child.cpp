@@ -1,4 +1,4 @@
-#include "child.hpp"
+#include "app/tetgen/child.hpp"
 
 #include <sys/resource.h>
 #include <sys/wait.h>

@@ -26,12 +26,12 @@
 #include "barycert/plc.hpp"
 #include "barycert/surface.hpp"
 #include "barycert/surface_report.hpp"
-#include "child.hpp"
+#include "app/tetgen/child.hpp"
 #include "core/base/text.hpp"
 #include "files/named_file.hpp"
 #include "files/output_file.hpp"
-#include "mesher.hpp"
-#include "options.hpp"
+#include "app/tetgen/mesher.hpp"
+#include "app/tetgen/options.hpp"
 
 namespace barycert {
 namespace {

@@ -1,4 +1,4 @@
-#include "mesher.hpp"
+#include "app/tetgen/mesher.hpp"
 
 #include <tetgen.h>
 

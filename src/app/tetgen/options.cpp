@@ -1,4 +1,4 @@
-#include "options.hpp"
+#include "app/tetgen/options.hpp"
 
 #include <fmt/format.h>
 
