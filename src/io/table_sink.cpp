@@ -85,7 +85,7 @@ Result<std::unique_ptr<TableSink>> open_table(const std::string& path, const Tab
     }
     const Result<io::FormatKind> kind = io::format_of_table(path);
     if (kind && *kind == io::FormatKind::vtu) return io::open_vtu_sink(path, format);
-    if (!kind || *kind == io::FormatKind::node)
+    if (!kind || (path != "-" && !base::is_written_as(path, base::Use::rows)))
         return file_error("file.suffix", path, "cannot write rows in the format of that suffix",
                           base::suffixes_written(base::Use::rows) + ", or - for CSV on the standard output",
                           kind ? "a format for points alone" : kind.error().found, "name a file with one of these suffixes");

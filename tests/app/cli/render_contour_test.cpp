@@ -182,7 +182,7 @@ TEST(RenderIso, WhatIsNotUnderstoodIsRefused) {
     expect_error(plus(line, {"nan", "--output", out}), "--value");
     expect_error(plus(line, {"1,2", "--output", out}), "--value");
     expect_error(plus(line, {"1", "--output", scratch.path("s.stl")}),
-                 "expected .vtp, .ply, .off, .png, .svg or .pdf, found \".stl\"");
+                 "expected a surface (.vtp .off .ply) or a picture (.png .svg .pdf), found \".stl\"");
     expect_error(plus(line, {"1", "--output", out, "--fields", "zzz"}), "no field of that name");
     expect_error(plus(line, {"1", "--output", out, "--colours", "attribute0"}), "--colours is for pictures");
     expect_error(plus(line, {"1", "--output", out, "--range", "0,1"}), "--range is for pictures");
@@ -328,7 +328,7 @@ TEST(RenderSlice, WhatIsNotUnderstoodIsRefused) {
     expect_error({"render", "slice", mesh("plate"), "--plane", "0,0,1,0", "--output", out},
                  "a plane cuts meshes of tetrahedra");
     expect_error({"render", "slice", two, "--plane", "0,0,1,0", "--output", scratch.path("s.jpg")},
-                 "expected .vtp, .ply, .off, .png, .svg or .pdf, found \".jpg\"");
+                 "expected a surface (.vtp .off .ply) or a picture (.png .svg .pdf), found \".jpg\"");
     expect_error({"render", "slice", two, "--plane", "0,0,1,0.5", "--output", out, "--range", "0,1"},
                  "--range is for pictures");
     EXPECT_EQ(scratch.names(), (Words{"two.ele", "two.node"})) << "nothing is written";

@@ -111,7 +111,7 @@ TEST_F(RenderMesh, VectorsStayVectors) {
     }
     EXPECT_TRUE(contains(read_file(scratch_.path("p.svg")), ">plate</text>"));
     EXPECT_TRUE(contains(read_file(scratch_.path("p.pdf")), "%PDF"));
-    expect_error({"render", "mesh", mesh("plate"), "--output", scratch_.path("p.jpg")}, ".png, .svg, .pdf or .html");
+    expect_error({"render", "mesh", mesh("plate"), "--output", scratch_.path("p.jpg")}, ".png .svg .pdf or .html");
     const Ended sized = run({"render", "mesh", mesh("plate"), "--scale", "100", "--axes", "none", "--output", png_});
     EXPECT_EQ(sized.code, 0) << sized.err;
 }

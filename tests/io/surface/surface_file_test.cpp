@@ -152,7 +152,7 @@ TEST(SurfaceFile, WhatCannotBeWrittenLeavesNothing) {
         ASSERT_FALSE(written);
         EXPECT_NE(written.error().message().find(part), std::string::npos) << written.error().message();
     };
-    says(two_triangles(), "s.obj", "expected .vtp, .ply or .off, found \".obj\"");
+    says(two_triangles(), "s.obj", "expected .vtp, .off or .ply, found \".obj\"");
     says(two_triangles(), "s", "found no suffix");
     Surface s = two_triangles();
     s.cells[2] = 4;
