@@ -1,6 +1,22 @@
-#include <chrono>
-
 #include "audit/asking.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <ratio>
+#include <span>
+#include <string>
+
+#include "audit/kernels/channel.hpp"
+#include "audit/kernels/host.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/finding.hpp"
+#include "barycert/kernels.hpp"
+#include "barycert/oracle.hpp"
+#include "barycert/simplex.hpp"
 #include "core/base/ulp.hpp"
 
 namespace barycert::audit {

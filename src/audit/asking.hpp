@@ -2,31 +2,25 @@
 /// oracle's answer; has the figures of many answers.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
 #include "audit/kernels/host.hpp"
-#include "barycert/audit.hpp"
-#include "barycert/baseline.hpp"
-#include "barycert/certificate.hpp"
-#include "barycert/check.hpp"
-#include "barycert/check_results.hpp"
-#include "barycert/choices.hpp"
-#include "barycert/defect.hpp"
 #include "barycert/environment.hpp"
-#include "barycert/family.hpp"
+#include "barycert/error_codes.hpp"
 #include "barycert/finding.hpp"
-#include "barycert/fix.hpp"
-#include "barycert/inverse_rules.hpp"
 #include "barycert/kernels.hpp"
-#include "barycert/measures.hpp"
-#include "barycert/not_finite.hpp"
 #include "barycert/oracle.hpp"
-#include "barycert/plc.hpp"
-#include "barycert/rule_audit.hpp"
+#include "barycert/result.hpp"
+#include "barycert/simplex.hpp"
 #include "barycert/statistics.hpp"
-#include "barycert/surface.hpp"
-#include "barycert/surface_report.hpp"
-#include "barycert/surface_rules.hpp"
-#include "barycert/threshold.hpp"
-#include "barycert/witness.hpp"
 #include "core/base/nearest_name.hpp"
 #include "core/base/text.hpp"
 #include "core/base/workers.hpp"

@@ -1,8 +1,26 @@
+#include "barycert/baseline.hpp"
+
 #include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <numeric>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "audit/asking.hpp"
 #include "audit/json_members.hpp"
 #include "audit/recipes.hpp"
+#include "barycert/audit.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/family.hpp"
+#include "barycert/result.hpp"
+#include "barycert/simplex.hpp"
+#include "barycert/statistics.hpp"
 
 namespace barycert {
 

@@ -1,9 +1,23 @@
 #include "audit/block.hpp"
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
 
 #include "audit/asking.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/finding.hpp"
+#include "barycert/kernels.hpp"
+#include "barycert/oracle.hpp"
+#include "barycert/simplex.hpp"
+#include "barycert/statistics.hpp"
+#include "barycert/witness.hpp"
 #include "core/base/finite.hpp"
 #include "core/base/strict_math.hpp"
 

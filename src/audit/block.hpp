@@ -1,7 +1,18 @@
 /// One block of cases: make, ask, run each kernel against the clock, compare.
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
 #include "audit/judge.hpp"
+#include "barycert/audit.hpp"
+#include "barycert/family.hpp"
+#include "barycert/kernels.hpp"
+#include "barycert/simplex.hpp"
+#include "barycert/statistics.hpp"
 
 namespace barycert::audit {
 

@@ -1,11 +1,28 @@
 // The parts of an audit, chosen by their names: kernels and families.
 
+#include "barycert/choices.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
 #include "audit/asking.hpp"
 #include "barycert/audit_search.hpp"
+#include "barycert/error_codes.hpp"
+#include "barycert/family.hpp"
+#include "barycert/finding.hpp"
 #include "barycert/gaps.hpp"
-#include "barycert/mutants.hpp"
-#include "core/base/finite.hpp"
+#include "barycert/kernels.hpp"
+#include "barycert/result.hpp"
+#include "barycert/threshold.hpp"
 #include "core/base/nearest_name.hpp"
+#include "core/base/text.hpp"
 
 namespace barycert {
 

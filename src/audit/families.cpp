@@ -1,5 +1,23 @@
 // Families, and the meshes that some of them draw simplices from.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
 #include "audit/recipes.hpp"
+#include "barycert/certificate.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/family.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/simplex.hpp"
+#include "barycert/witness.hpp"
+#include "core/base/random.hpp"
 #include "core/base/text.hpp"
 #include "mesh/adjacency.hpp"
 

@@ -1,6 +1,15 @@
 // Families whose simplices come from a mesh: what a kernel meets in use.
 
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
 #include "audit/recipes.hpp"
+#include "barycert/family.hpp"
+#include "barycert/simplex.hpp"
+#include "core/base/random.hpp"
 
 namespace barycert::audit {
 namespace {

@@ -1,7 +1,16 @@
 // Families of points near or on a facet of an ordinary simplex, where sums of products cancel; of simplices of bad
 // shape: flat, thin, on lattices, degenerate; and of coordinates at the ends of the range.
 
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
 #include "audit/recipes.hpp"
+#include "barycert/family.hpp"
+#include "barycert/simplex.hpp"
+#include "core/base/random.hpp"
 
 namespace barycert::audit {
 namespace {

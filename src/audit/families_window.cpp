@@ -1,7 +1,16 @@
 // Families of triangles in window coordinates: those whose points are pixel centres and whose vertices lie on the grid
 // of 1/256 of a pixel that rasterisers round to, and those in perspective.
 
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
 #include "audit/recipes.hpp"
+#include "barycert/family.hpp"
+#include "barycert/simplex.hpp"
+#include "core/base/random.hpp"
 
 namespace barycert::audit {
 namespace {

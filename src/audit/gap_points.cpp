@@ -1,6 +1,17 @@
 #include "audit/gap_points.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+
 #include "audit/recipes.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/simplex.hpp"
+#include "core/base/random.hpp"
+#include "core/base/ulp.hpp"
 #include "mesh/adjacency.hpp"
 
 namespace barycert::audit {

@@ -1,6 +1,10 @@
 /// Points on what cells share, and the cells around them.
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <vector>
+
 #include "barycert/mesh.hpp"
 #include "barycert/simplex.hpp"
 #include "core/base/lists.hpp"

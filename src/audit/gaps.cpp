@@ -1,15 +1,32 @@
 #include "barycert/gaps.hpp"
-#include "barycert/audit_search.hpp"
-#include "barycert/mutants.hpp"
-
-#include <chrono>
-#include <cmath>
 
 #include <tbb/enumerable_thread_specific.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "audit/asking.hpp"
 #include "audit/gap_points.hpp"
 #include "audit/judge.hpp"
+#include "audit/kernels/channel.hpp"
+#include "barycert/audit.hpp"
+#include "barycert/certificate.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/kernels.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/oracle.hpp"
+#include "barycert/result.hpp"
+#include "barycert/simplex.hpp"
+#include "core/base/workers.hpp"
 
 namespace barycert {
 

@@ -1,5 +1,16 @@
 #include "audit/judge.hpp"
 
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "barycert/audit.hpp"
+#include "barycert/oracle.hpp"
+#include "barycert/predicates.hpp"
+#include "barycert/result.hpp"
+#include "barycert/simplex.hpp"
 #include "barycert/weights.hpp"
 #include "core/base/random.hpp"
 #include "core/base/text.hpp"

@@ -1,30 +1,14 @@
 /// Who says what is right: the integers, CGAL, and barycert's own core where it does not sit in judgement on itself.
 #pragma once
 
+#include <cstdint>
+#include <optional>
+#include <string>
+
 #include "barycert/audit.hpp"
-#include "barycert/baseline.hpp"
-#include "barycert/certificate.hpp"
-#include "barycert/check.hpp"
-#include "barycert/check_results.hpp"
-#include "barycert/choices.hpp"
-#include "barycert/defect.hpp"
-#include "barycert/environment.hpp"
-#include "barycert/family.hpp"
-#include "barycert/finding.hpp"
-#include "barycert/fix.hpp"
-#include "barycert/inverse_rules.hpp"
-#include "barycert/kernels.hpp"
-#include "barycert/measures.hpp"
-#include "barycert/not_finite.hpp"
 #include "barycert/oracle.hpp"
-#include "barycert/plc.hpp"
-#include "barycert/rule_audit.hpp"
-#include "barycert/statistics.hpp"
-#include "barycert/surface.hpp"
-#include "barycert/surface_report.hpp"
-#include "barycert/surface_rules.hpp"
-#include "barycert/threshold.hpp"
-#include "barycert/witness.hpp"
+#include "barycert/result.hpp"
+#include "barycert/simplex.hpp"
 
 namespace barycert::audit {
 

@@ -1,10 +1,29 @@
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <iterator>
 #include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "audit/asking.hpp"
 #include "audit/recipes.hpp"
 #include "barycert/audit_pictures.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/family.hpp"
+#include "barycert/finding.hpp"
+#include "barycert/kernels.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/oracle.hpp"
 #include "barycert/predicates.hpp"
+#include "barycert/result.hpp"
+#include "barycert/simplex.hpp"
+#include "core/base/random.hpp"
+#include "core/base/range.hpp"
 #include "mesh/consistency.hpp"
 
 namespace barycert {

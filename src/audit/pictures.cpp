@@ -1,8 +1,21 @@
 // The contents of pictures of kernels: errors by the size of triangles, signs beside a side.
-#include "barycert/audit_pictures.hpp"
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
 
 #include "audit/asking.hpp"
 #include "audit/recipes.hpp"
+#include "barycert/audit_pictures.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/kernels.hpp"
+#include "barycert/oracle.hpp"
+#include "barycert/result.hpp"
+#include "barycert/simplex.hpp"
+#include "core/base/random.hpp"
+#include "core/base/ulp.hpp"
 
 namespace barycert {
 

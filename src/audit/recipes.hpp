@@ -2,30 +2,19 @@
 /// from vertices, in plain rounded arithmetic.
 #pragma once
 
-#include "barycert/audit.hpp"
-#include "barycert/baseline.hpp"
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
 #include "barycert/certificate.hpp"
-#include "barycert/check.hpp"
-#include "barycert/check_results.hpp"
-#include "barycert/choices.hpp"
-#include "barycert/defect.hpp"
-#include "barycert/environment.hpp"
 #include "barycert/family.hpp"
-#include "barycert/finding.hpp"
-#include "barycert/fix.hpp"
-#include "barycert/inverse_rules.hpp"
-#include "barycert/kernels.hpp"
-#include "barycert/measures.hpp"
-#include "barycert/not_finite.hpp"
-#include "barycert/oracle.hpp"
-#include "barycert/plc.hpp"
-#include "barycert/rule_audit.hpp"
-#include "barycert/statistics.hpp"
-#include "barycert/surface.hpp"
-#include "barycert/surface_report.hpp"
-#include "barycert/surface_rules.hpp"
-#include "barycert/threshold.hpp"
-#include "barycert/witness.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/simplex.hpp"
 #include "core/base/random.hpp"
 #include "core/base/range.hpp"
 #include "core/base/ulp.hpp"

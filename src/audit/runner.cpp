@@ -1,11 +1,32 @@
-#include <chrono>
-#include <tuple>
-
 #include <tbb/enumerable_thread_specific.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 #include "audit/asking.hpp"
 #include "audit/block.hpp"
-#include "audit/recipes.hpp"
+#include "audit/judge.hpp"
+#include "barycert/audit.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/family.hpp"
+#include "barycert/finding.hpp"
+#include "barycert/kernels.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
+#include "barycert/simplex.hpp"
+#include "barycert/statistics.hpp"
+#include "barycert/witness.hpp"
+#include "core/base/workers.hpp"
 
 namespace barycert {
 

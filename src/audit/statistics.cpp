@@ -1,6 +1,18 @@
+#include "barycert/statistics.hpp"
+
+#include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <vector>
 
 #include "audit/asking.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/finding.hpp"
+#include "barycert/simplex.hpp"
 #include "barycert/weights.hpp"
 #include "core/base/decades.hpp"
 #include "core/base/range.hpp"

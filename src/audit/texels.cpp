@@ -1,8 +1,18 @@
-#include "barycert/audit_pictures.hpp"
-
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 #include "audit/recipes.hpp"
+#include "barycert/audit_pictures.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/oracle.hpp"
+#include "core/base/random.hpp"
 #include "core/base/strict_math.hpp"
 
 namespace barycert {

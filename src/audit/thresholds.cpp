@@ -1,6 +1,21 @@
+#include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
 #include "audit/asking.hpp"
-#include "core/base/finite.hpp"
+#include "barycert/audit.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/finding.hpp"
+#include "barycert/result.hpp"
+#include "barycert/statistics.hpp"
+#include "barycert/threshold.hpp"
 #include "core/base/nearest_name.hpp"
+#include "core/base/text.hpp"
 
 namespace barycert {
 

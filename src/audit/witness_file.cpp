@@ -1,8 +1,26 @@
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "audit/json_members.hpp"
 #include "audit/search/evaluation.hpp"
+#include "barycert/audit.hpp"
 #include "barycert/audit_search.hpp"
-#include "barycert/gaps.hpp"
-#include "barycert/mutants.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/finding.hpp"
+#include "barycert/kernels.hpp"
+#include "barycert/oracle.hpp"
+#include "barycert/result.hpp"
+#include "barycert/simplex.hpp"
+#include "barycert/statistics.hpp"
+#include "barycert/witness.hpp"
+#include "core/base/text.hpp"
 #include "files/json_text.hpp"
 
 namespace barycert {

@@ -2,8 +2,17 @@
 /// and hands single cases that these leave undecided to the last tier.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
 #include <type_traits>
+#include <vector>
 
+#include "barycert/result.hpp"
+#include "barycert/simplex.hpp"
 #include "core/base/finite.hpp"
 #include "core/base/strict_math.hpp"
 #include "core/lanes.hpp"

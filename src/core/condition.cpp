@@ -1,11 +1,14 @@
+#include "barycert/simplex.hpp"
 #include "barycert/weights.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "barycert/environment.hpp"
 #include "core/base/finite.hpp"
 #include "core/base/strict_math.hpp"
+#include "core/integer.hpp"
 #include "core/numerators-inl.hpp"
 #include "core/scaled_double.hpp"
 

@@ -1,7 +1,9 @@
 #include "barycert/environment.hpp"
 
+#include <string>
 #include <thread>
 
+#include "barycert/result.hpp"
 #include "core/base/measured_environment.hpp"
 #include "core/lanes.hpp"
 

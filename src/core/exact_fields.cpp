@@ -1,7 +1,12 @@
 // Gradients of linear fields, values of quadratic ones, and values in perspective, in integers.
+#include <algorithm>
 #include <cmath>
 
+#include "barycert/simplex.hpp"
+#include "barycert/weights.hpp"
 #include "core/exact_tier.hpp"
+#include "core/integer.hpp"
+#include "core/lanes.hpp"
 #include "core/numerators-inl.hpp"
 #include "core/scaled_double.hpp"
 

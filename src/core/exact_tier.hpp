@@ -11,7 +11,10 @@
 #pragma once
 
 #include <limits>
+#include <span>
 
+#include "barycert/predicates.hpp"
+#include "barycert/simplex.hpp"
 #include "core/integer.hpp"
 #include "core/lanes.hpp"
 

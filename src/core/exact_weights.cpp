@@ -1,7 +1,15 @@
+#include "barycert/predicates.hpp"
+#include "barycert/simplex.hpp"
 #include "core/exact_tier.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
 
+#include "core/integer.hpp"
+#include "core/lanes.hpp"
 #include "core/numerators-inl.hpp"
 #include "core/scaled_double.hpp"
 

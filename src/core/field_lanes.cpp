@@ -1,4 +1,8 @@
 // Fields in their cells: gradients, quadratic values, and values in perspective.
+#include <cstddef>
+#include <cstdint>
+#include "barycert/simplex.hpp"
+#include "barycert/weights.hpp"
 #include "core/lanes.hpp"
 
 #undef HWY_TARGET_INCLUDE

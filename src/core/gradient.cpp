@@ -1,6 +1,16 @@
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
 #include "barycert/environment.hpp"
+#include "barycert/predicates.hpp"
+#include "barycert/result.hpp"
+#include "barycert/simplex.hpp"
+#include "barycert/weights.hpp"
 #include "core/blocks.hpp"
 #include "core/exact_tier.hpp"
+#include "core/lanes.hpp"
 
 namespace barycert::core {
 namespace {

@@ -20,6 +20,13 @@
 // 169 u^2 F; with l 19 by 49 and 3 times 24: with 435 825 u^2 F. Taken are 176 and 848.
 // Ranges outside which nothing is certain: w in [2^-200, 2^200], F in [2^-300, 2^300] or 0. The loss by underflow,
 // 2^-1070 a product, times the w to come, is below 2^-60 of these bounds; nothing overflows.
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+#include "barycert/simplex.hpp"
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/grid_lanes.cpp"
 #include "core/foreach_target.hpp"

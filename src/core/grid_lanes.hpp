@@ -1,6 +1,10 @@
 /// Cells of a grid along axes that hold points, and values there, many at a time.
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "barycert/simplex.hpp"

@@ -1,3 +1,11 @@
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <string>
+
+#include "barycert/result.hpp"
+#include "barycert/simplex.hpp"
+#include "barycert/weights.hpp"
 #include "core/base/finite.hpp"
 #include "core/exact_tier.hpp"
 

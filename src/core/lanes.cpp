@@ -1,8 +1,16 @@
 #include "core/lanes.hpp"
 
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
 #include <type_traits>
+#include <vector>
 
 #include "barycert/environment.hpp"
+#include "barycert/predicates.hpp"
+#include "barycert/simplex.hpp"
+#include "barycert/weights.hpp"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/lanes.cpp"

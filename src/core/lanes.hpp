@@ -4,6 +4,12 @@
 /// and lists the numbers of the cases it leaves undecided. Nothing is said of their output.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "barycert/predicates.hpp"
+#include "barycert/simplex.hpp"
 #include "barycert/weights.hpp"
 
 namespace barycert::core {

@@ -1,8 +1,20 @@
 #include "barycert/perspective.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+
 #include "barycert/environment.hpp"
+#include "barycert/result.hpp"
+#include "barycert/simplex.hpp"
+#include "barycert/weights.hpp"
+#include "core/base/finite.hpp"
 #include "core/blocks.hpp"
 #include "core/exact_tier.hpp"
+#include "core/lanes.hpp"
 
 namespace barycert::core {
 namespace {

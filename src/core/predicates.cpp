@@ -1,6 +1,14 @@
+#include "barycert/predicates.hpp"
+#include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstddef>
+#include <initializer_list>
+#include <span>
+#include <string>
 
+#include "barycert/result.hpp"
+#include "barycert/simplex.hpp"
 #include "core/base/finite.hpp"
 #include "core/base/strict_math.hpp"
 #include "core/exact_tier.hpp"

@@ -1,6 +1,19 @@
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
 #include "barycert/environment.hpp"
+#include "barycert/result.hpp"
+#include "barycert/simplex.hpp"
+#include "barycert/weights.hpp"
+#include "core/base/finite.hpp"
 #include "core/blocks.hpp"
 #include "core/exact_tier.hpp"
+#include "core/lanes.hpp"
 
 namespace barycert::core {
 namespace {

@@ -1,6 +1,16 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <span>
 #include "barycert/environment.hpp"
+#include "barycert/result.hpp"
+#include "barycert/simplex.hpp"
+#include "barycert/weights.hpp"
 #include "core/blocks.hpp"
 #include "core/exact_tier.hpp"
+#include "core/integer.hpp"
+#include "core/lanes.hpp"
 #include "core/numerators-inl.hpp"
 #include "core/scaled_double.hpp"
 

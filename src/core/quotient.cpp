@@ -1,6 +1,9 @@
-#include "core/integer.hpp"
-
+#include <algorithm>
 #include <bit>
+#include <cstddef>
+#include <cstdint>
+
+#include "core/integer.hpp"
 
 namespace barycert::core {
 namespace {

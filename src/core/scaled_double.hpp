@@ -1,7 +1,9 @@
 /// Finite doubles as integers times a power of two.
 #pragma once
 
+#include <algorithm>
 #include <bit>
+#include <cstdint>
 #include <initializer_list>
 #include <type_traits>
 

@@ -1,5 +1,10 @@
 #include "core/shape_functions.hpp"
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
 #include "core/vtk_cell.hpp"
 
 namespace barycert::core::isoparametric {

@@ -1,8 +1,15 @@
 #include <cassert>
+#include <cstddef>
+#include <cstdint>
+#include <span>
 
 #include "barycert/environment.hpp"
+#include "barycert/predicates.hpp"
+#include "barycert/result.hpp"
+#include "barycert/simplex.hpp"
 #include "core/blocks.hpp"
 #include "core/exact_tier.hpp"
+#include "core/lanes.hpp"
 
 namespace barycert::core {
 namespace {

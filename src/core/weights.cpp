@@ -1,6 +1,21 @@
+#include "barycert/weights.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
 #include "barycert/environment.hpp"
+#include "barycert/predicates.hpp"
+#include "barycert/result.hpp"
+#include "barycert/simplex.hpp"
+#include "core/base/finite.hpp"
 #include "core/blocks.hpp"
 #include "core/exact_tier.hpp"
+#include "core/lanes.hpp"
 
 namespace barycert::core {
 namespace {

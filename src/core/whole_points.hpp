@@ -2,11 +2,15 @@
 /// computed is rare, and of a high degree.
 #pragma once
 
+#include <array>
 #include <boost/multiprecision/cpp_int.hpp>
+#include <cstdint>
 #include <cstdlib>
+#include <initializer_list>
 #include <memory>
 
 #include "core/base/vectors.hpp"
+#include "core/integer.hpp"
 #include "core/scaled_double.hpp"
 
 namespace barycert::core {

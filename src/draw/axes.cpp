@@ -1,10 +1,16 @@
 #include "draw/axes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "core/base/text.hpp"
+#include "draw/picture.hpp"
 
 namespace barycert::draw {
 namespace {

@@ -1,6 +1,11 @@
 /// Axes with round numbers, and plots of curves over them.
 #pragma once
 
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "draw/picture.hpp"
 
 namespace barycert::draw {

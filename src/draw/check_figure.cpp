@@ -1,7 +1,16 @@
 // Finds what cannot be drawn of a figure.
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
 
+#include "barycert/figure.hpp"
+#include "barycert/raster.hpp"
+#include "barycert/result.hpp"
+#include "barycert/scene.hpp"
 #include "core/base/finite.hpp"
 #include "core/base/strict_math.hpp"
 #include "core/base/text.hpp"

@@ -2,21 +2,21 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "barycert/certificate.hpp"
 #include "barycert/check.hpp"
-#include "barycert/check_results.hpp"
 #include "barycert/defect.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/figure.hpp"
-#include "barycert/fix.hpp"
 #include "barycert/measures.hpp"
-#include "barycert/not_finite.hpp"
-#include "barycert/plc.hpp"
+#include "barycert/raster.hpp"
+#include "barycert/result.hpp"
 #include "barycert/surface.hpp"
-#include "barycert/surface_report.hpp"
 
 namespace barycert {
 

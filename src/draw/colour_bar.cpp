@@ -1,10 +1,15 @@
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
 
+#include "barycert/raster.hpp"
 #include "core/base/text.hpp"
 #include "draw/axes.hpp"
 #include "draw/colour_map.hpp"
 #include "draw/files.hpp"
+#include "draw/picture.hpp"
 
 namespace barycert::draw {
 namespace {

@@ -4,10 +4,18 @@
 #include "draw/colour_map.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
 
 #include "barycert/figure.hpp"
+#include "barycert/raster.hpp"
 #include "core/base/text.hpp"
+#include "draw/picture.hpp"
 
 namespace barycert {
 namespace draw {

@@ -1,6 +1,13 @@
 /// Colours of values.
 #pragma once
 
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "barycert/raster.hpp"
 #include "draw/picture.hpp"
 
 namespace barycert::draw {

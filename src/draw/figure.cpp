@@ -1,9 +1,23 @@
+#include "barycert/figure.hpp"
+
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
 
 #include "barycert/environment.hpp"
+#include "barycert/raster.hpp"
+#include "barycert/result.hpp"
+#include "draw/colour_map.hpp"
 #include "draw/figure_values.hpp"
 #include "draw/files.hpp"
 #include "draw/layout.hpp"
+#include "draw/picture.hpp"
 #include "draw/png/png_file.hpp"
 #include "files/format.hpp"
 

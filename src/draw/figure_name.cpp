@@ -1,3 +1,5 @@
+#include <string_view>
+
 #include "barycert/figure.hpp"
 #include "files/format.hpp"
 

@@ -1,10 +1,18 @@
 #include "draw/figure_values.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
 
+#include "barycert/figure.hpp"
+#include "barycert/raster.hpp"
+#include "barycert/result.hpp"
 #include "core/base/range.hpp"
 #include "core/base/strict_math.hpp"
 #include "core/base/text.hpp"
+#include "draw/colour_map.hpp"
 
 namespace barycert::draw {
 

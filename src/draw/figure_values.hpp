@@ -2,8 +2,11 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 
 #include "barycert/figure.hpp"
+#include "barycert/result.hpp"
 #include "draw/colour_map.hpp"
 
 namespace barycert::draw {

@@ -3,14 +3,26 @@
 
 #include <cairo-ft.h>
 #include <cairo-pdf.h>
+#include <cairo.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <new>
 #include <numbers>
+#include <string>
+#include <string_view>
+#include <vector>
 
+#include "barycert/raster.hpp"
+#include "barycert/result.hpp"
 #include "core/base/text.hpp"
+#include "draw/picture.hpp"
 #include "files/embedded.hpp"
-#include "files/output_file.hpp"
 #include "files/format.hpp"
+#include "files/output_file.hpp"
 
 // As it is in data/fonts.
 BARYCERT_EMBED(barycert_font, BARYCERT_FONT);

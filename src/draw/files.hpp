@@ -1,6 +1,11 @@
 /// Pictures as files, and the font of their text: DejaVu Sans, so that a picture is the same on every machine.
 #pragma once
 
+#include <string>
+#include <string_view>
+
+#include "barycert/raster.hpp"
+#include "barycert/result.hpp"
 #include "draw/picture.hpp"
 
 namespace barycert::draw {

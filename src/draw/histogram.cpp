@@ -2,10 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
 
+#include "barycert/result.hpp"
 #include "core/base/text.hpp"
+#include "draw/axes.hpp"
 #include "draw/files.hpp"
+#include "draw/picture.hpp"
 
 namespace barycert::draw {
 namespace {

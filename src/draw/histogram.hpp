@@ -1,9 +1,16 @@
 /// Counts as bars.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
 
+#include "barycert/result.hpp"
 #include "draw/axes.hpp"
+#include "draw/picture.hpp"
 
 namespace barycert::draw {
 

@@ -1,8 +1,25 @@
 #include "draw/layout.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "barycert/figure.hpp"
+#include "barycert/raster.hpp"
+#include "barycert/result.hpp"
+#include "barycert/scene.hpp"
 #include "core/base/strict_math.hpp"
 #include "draw/axes.hpp"
+#include "draw/colour_map.hpp"
 #include "draw/figure_values.hpp"
+#include "draw/picture.hpp"
 #include "draw/view.hpp"
 
 namespace barycert::draw {

@@ -1,7 +1,10 @@
 /// Figures as pictures.
 #pragma once
 
+#include <cstdint>
+
 #include "barycert/figure.hpp"
+#include "barycert/result.hpp"
 #include "draw/picture.hpp"
 
 namespace barycert::draw {

@@ -1,8 +1,16 @@
 #include "draw/picture.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "barycert/raster.hpp"
 
 namespace barycert::draw {
 namespace {

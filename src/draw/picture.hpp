@@ -6,7 +6,13 @@
 
 #include <fmt/format.h>
 
+#include <cstddef>
 #include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "barycert/raster.hpp"
 

@@ -1,5 +1,14 @@
 // Pictures as SVG: as markup of a page, and as files.
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "barycert/raster.hpp"
 #include "core/base/text.hpp"
 #include "draw/picture.hpp"
 #include "draw/png/png_file.hpp"

@@ -1,11 +1,27 @@
 #include "draw/view.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
 #include <numbers>
+#include <optional>
+#include <utility>
+#include <vector>
 
+#include "barycert/figure.hpp"
+#include "barycert/raster.hpp"
+#include "barycert/scene.hpp"
+#include "barycert/weights.hpp"
 #include "core/base/finite.hpp"
 #include "core/base/strict_math.hpp"
 #include "core/base/vectors.hpp"
+#include "draw/colour_map.hpp"
+#include "draw/picture.hpp"
 #include "draw/raster/colour_bytes.hpp"
+#include "draw/raster/layers.hpp"
 
 namespace barycert::draw {
 namespace {

@@ -1,12 +1,16 @@
 /// The camera of a figure, and what it sees as triangles and lines.
 #pragma once
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 
 #include "barycert/figure.hpp"
+#include "barycert/raster.hpp"
+#include "barycert/scene.hpp"
 #include "core/base/range.hpp"
 #include "draw/colour_map.hpp"
-#include "draw/raster/layers.hpp"
+#include "draw/picture.hpp"
 
 namespace barycert::draw {
 

@@ -3,6 +3,8 @@
 #include <libdeflate.h>
 
 #include <memory>
+#include <string>
+#include <string_view>
 
 namespace barycert::base {
 

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "files/suffix.hpp"
@@ -42,7 +44,8 @@ constexpr Format output(std::string_view suffixes, std::string_view family, Form
 /// One that meshio reads, or nobody.
 constexpr Format other(std::string_view suffixes, std::string_view what, std::string_view remedy,
                        const char* meshio = nullptr, bool is_mesh = true, std::string_view begins = {}) {
-    return {.suffixes = suffixes, .begins = begins, .what = what, .remedy = remedy, .meshio = meshio, .is_mesh = is_mesh};
+    return {
+        .suffixes = suffixes, .begins = begins, .what = what, .remedy = remedy, .meshio = meshio, .is_mesh = is_mesh};
 }
 
 constexpr std::array all{
@@ -61,10 +64,7 @@ constexpr std::array all{
            .kind = FormatKind::gmsh,
            .read = {mesh, surface, field},
            .written = {mesh}},
-    Format{.suffixes = " .mesh .meshb ",
-           .family = "Medit",
-           .kind = FormatKind::medit,
-           .read = {mesh, surface, field}},
+    Format{.suffixes = " .mesh .meshb ", .family = "Medit", .kind = FormatKind::medit, .read = {mesh, surface, field}},
     Format{.suffixes = " .sol .solb ", .family = "Medit", .kind = FormatKind::medit_fields, .read = {field}},
     vtk(" .vtu ", FormatKind::vtu, {mesh, surface, points, field}, {mesh, rows}),
     vtk(" .vtk ", FormatKind::vtk, {mesh, surface, points, field}, {mesh}),
@@ -150,8 +150,9 @@ std::string in_a_row(const std::vector<std::string_view>& words, std::string_vie
     return text;
 }
 
-constexpr std::array<std::string_view, use_count> use_names{"meshes", "surfaces", "PLCs",    "points",   "fields", "steps",
-                                                            "rows",   "grids",    "weights", "pictures", "pages",  "scenes"};
+constexpr std::array<std::string_view, use_count> use_names{"meshes",  "surfaces", "PLCs",  "points",
+                                                            "fields",  "steps",    "rows",  "grids",
+                                                            "weights", "pictures", "pages", "scenes"};
 
 std::string names_of(Uses uses) {
     std::vector<std::string_view> names;
@@ -241,7 +242,8 @@ std::string formats_table() {
                    format->written == first->written;
         };
         for (; is_like_first(); ++format) {
-            for (const char c : format->suffixes.substr(1)) suffixes += c == '.' ? "`." : c == ' ' ? "` " : std::string(1, c);
+            for (const char c : format->suffixes.substr(1))
+                suffixes += c == '.' ? "`." : c == ' ' ? "` " : std::string(1, c);
         }
         if (first->family.empty()) continue;
         suffixes.pop_back();

@@ -2,6 +2,7 @@
 /// doc/formats.md is made of it.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <initializer_list>
 #include <span>

@@ -2,13 +2,25 @@
 
 #include <fcntl.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <cerrno>
+#include <cstdint>
 #include <cstring>
 #include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
 
+#include "barycert/error_codes.hpp"
+#include "barycert/result.hpp"
 #include "core/base/large_pages.hpp"
 #include "core/base/nearest_name.hpp"
 #include "core/base/workers.hpp"
+#include "files/descriptor.hpp"
 
 namespace barycert::base {
 namespace {

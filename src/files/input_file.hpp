@@ -7,10 +7,15 @@
 
 #include <sys/types.h>
 
+#include <cstdint>
 #include <ctime>
 #include <functional>
 #include <map>
+#include <optional>
 #include <span>
+#include <string>
+#include <string_view>
+#include <utility>
 
 #include "barycert/result.hpp"
 #include "files/descriptor.hpp"

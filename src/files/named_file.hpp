@@ -1,6 +1,10 @@
 /// Files that a program reads and writes, by what its user calls them; and the rule that no output is an input.
 #pragma once
 
+#include <string>
+#include <string_view>
+#include <vector>
+
 #include "barycert/result.hpp"
 
 namespace barycert::base {

@@ -1,6 +1,12 @@
 /// Files that appear whole or not at all.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
 #include "barycert/result.hpp"
 #include "files/descriptor.hpp"
 

@@ -1,9 +1,17 @@
 #include "files/spool.hpp"
 
 #include <fcntl.h>
+#include <stdlib.h>
+#include <unistd.h>
 
+#include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <string>
+#include <string_view>
+
+#include "barycert/result.hpp"
+#include "files/descriptor.hpp"
 
 namespace barycert::base {
 namespace {

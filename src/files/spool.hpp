@@ -1,7 +1,11 @@
 /// Columns that are gathered before they can be written, because how many rows they have is known at the end only.
 #pragma once
 
+#include <cstddef>
 #include <span>
+#include <string>
+#include <string_view>
+#include <utility>
 
 #include "barycert/result.hpp"
 #include "files/descriptor.hpp"

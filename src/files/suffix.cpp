@@ -1,6 +1,7 @@
 #include "files/suffix.hpp"
 
 #include <filesystem>
+#include <string>
 #include <system_error>
 
 namespace barycert::base {

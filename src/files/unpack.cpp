@@ -1,10 +1,21 @@
 #include <libdeflate.h>
 #include <sys/stat.h>
+#include <unistd.h>
 #include <zlib.h>
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
 
+#include "barycert/result.hpp"
+#include "files/descriptor.hpp"
 #include "files/input_file.hpp"
 
 namespace barycert::base {

@@ -2,17 +2,26 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
 #include <new>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "barycert/environment.hpp"
+#include "barycert/error_codes.hpp"
 #include "barycert/gmsh_files.hpp"
+#include "barycert/mesh.hpp"
 #include "barycert/mesh_files.hpp"
-#include "barycert/plc_files.hpp"
 #include "barycert/point_files.hpp"
+#include "barycert/result.hpp"
 #include "barycert/series.hpp"
-#include "barycert/surface_files.hpp"
+#include "barycert/table.hpp"
 #include "barycert/table_files.hpp"
-#include "barycert/tetgen_files.hpp"
 #include "barycert/vtk_files.hpp"
 #include "core/base/text.hpp"
 #include "files/format.hpp"

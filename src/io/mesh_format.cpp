@@ -1,10 +1,25 @@
-#include "io/formats.hpp"
-
+#include <algorithm>
 #include <cctype>
+#include <cstddef>
 #include <filesystem>
 #include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
 
+#include "barycert/gmsh_files.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/mesh_files.hpp"
+#include "barycert/result.hpp"
+#include "barycert/tetgen_files.hpp"
+#include "barycert/vtk_files.hpp"
 #include "core/base/nearest_name.hpp"
+#include "files/format.hpp"
+#include "files/input_file.hpp"
+#include "io/formats.hpp"
 #include "mesh/pulling.hpp"
 #include "mesh/threads/arena.hpp"
 
@@ -157,7 +172,8 @@ std::string meshio_format(const std::string& path) {
 }
 
 Result<MeshFormat> mesh_output_format(const std::string& path) {
-    if (const auto format = format_by_suffix(path); format && base::is_written_as(path, base::Use::mesh)) return *format;
+    if (const auto format = format_by_suffix(path); format && base::is_written_as(path, base::Use::mesh))
+        return *format;
     const std::string suffix = suffix_of(path);
     // part.1 is a stem: only what others use as a suffix is refused.
     const bool digits = suffix.find_first_not_of("0123456789", 1) == std::string::npos;

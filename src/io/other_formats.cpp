@@ -1,9 +1,21 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <initializer_list>
+#include <span>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
 
+#include "barycert/result.hpp"
+#include "core/base/text.hpp"
+#include "files/format.hpp"
 #include "io/formats.hpp"
 #include "io/number_word.hpp"
 #include "io/words.hpp"
@@ -71,7 +83,7 @@ bool is_ucd(std::string_view head) {
 /// HDF5, NetCDF and ZIP hold many formats: which, is told by the suffix, if it is that of one of these, each with one
 /// of its suffixes.
 const Format* container(std::string_view path, std::initializer_list<std::string_view> held,
-                             std::string_view otherwise) {
+                        std::string_view otherwise) {
     const Format* const format = other_format_by_suffix(path);
     const bool is_held =
         std::ranges::any_of(held, [&](std::string_view suffix) { return format_with(suffix) == format; });

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstddef>
+#include <memory>
+#include <vector>
 
 #include "barycert/environment.hpp"
 #include "core/base/large_pages.hpp"

@@ -1,8 +1,21 @@
-#include "io/streams.hpp"
-
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <optional>
 #include <set>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
+#include "barycert/error_codes.hpp"
+#include "barycert/point_files.hpp"
+#include "barycert/result.hpp"
 #include "core/base/nearest_name.hpp"
+#include "core/base/text.hpp"
+#include "io/formats.hpp"
+#include "io/streams.hpp"
 #include "io/words.hpp"
 
 namespace barycert::io {

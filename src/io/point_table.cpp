@@ -1,7 +1,24 @@
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "barycert/mesh.hpp"
+#include "barycert/mesh_files.hpp"
+#include "barycert/point_files.hpp"
+#include "barycert/result.hpp"
+#include "barycert/table.hpp"
 #include "core/base/finite.hpp"
+#include "core/base/text.hpp"
+#include "files/format.hpp"
+#include "io/formats.hpp"
 #include "io/streams.hpp"
+#include "mesh/columns.hpp"
 
 namespace barycert::io {
 namespace {

@@ -1,10 +1,16 @@
 /// Rows of numbers on the way to a file, as text or binary.
 #pragma once
 
+#include <array>
 #include <charconv>
 #include <cstring>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
 #include "files/output_file.hpp"
 
 namespace barycert::io {

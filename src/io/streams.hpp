@@ -1,8 +1,22 @@
 /// Parts that sources of points with carried columns share, and sinks of rows. Errors are thrown as Exceptions.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "barycert/environment.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/point_files.hpp"
+#include "barycert/result.hpp"
+#include "barycert/table.hpp"
+#include "barycert/table_files.hpp"
+#include "core/base/text.hpp"
 #include "files/output_file.hpp"
-#include "io/formats.hpp"
 #include "io/parallel.hpp"
 #include "mesh/columns.hpp"
 

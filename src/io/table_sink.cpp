@@ -1,5 +1,23 @@
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <memory>
 #include <set>
+#include <string>
+#include <string_view>
+#include <utility>
 
+#include "barycert/environment.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
+#include "barycert/simplex.hpp"
+#include "barycert/table.hpp"
+#include "barycert/table_files.hpp"
+#include "core/base/text.hpp"
+#include "files/format.hpp"
+#include "files/output_file.hpp"
+#include "io/formats.hpp"
+#include "io/parallel.hpp"
 #include "io/streams.hpp"
 #include "io/vtk/out_file.hpp"
 
@@ -88,7 +106,8 @@ Result<std::unique_ptr<TableSink>> open_table(const std::string& path, const Tab
     if (!kind || (path != "-" && !base::is_written_as(path, base::Use::rows)))
         return file_error("file.suffix", path, "cannot write rows in the format of that suffix",
                           base::suffixes_written(base::Use::rows) + ", or - for CSV on the standard output",
-                          kind ? "a format for points alone" : kind.error().found, "name a file with one of these suffixes");
+                          kind ? "a format for points alone" : kind.error().found,
+                          "name a file with one of these suffixes");
     return *kind == io::FormatKind::csv ? io::open_csv_sink(path, format) : io::open_npy_sink(path, format);
 } catch (const Exception& problem) {
     return problem.error();

@@ -1,5 +1,9 @@
 #include "io/words.hpp"
 
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
 namespace barycert::io {
 
 std::vector<std::string_view> cut_fields(std::string_view line, std::string_view blanks, std::string_view separators) {

@@ -1,9 +1,15 @@
 #include "mesh/adjacency.hpp"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <span>
 #include <tuple>
+#include <vector>
 
+#include "barycert/mesh.hpp"
 #include "core/base/large_pages.hpp"
 #include "mesh/threads/arena.hpp"
 

@@ -1,6 +1,12 @@
 /// Which cells share a facet: edges between triangles, faces between tetrahedra.
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
 #include "barycert/mesh.hpp"
 
 namespace barycert::mesh {

@@ -1,7 +1,14 @@
 #include "mesh/cell_rings.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <span>
 #include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "barycert/mesh.hpp"
+#include "mesh/face_cut.hpp"
 
 namespace barycert::mesh {
 namespace {

@@ -1,6 +1,9 @@
 /// The faces of a cell as rings of nodes: turned alike, and without what has no area.
 #pragma once
 
+#include <vector>
+
+#include "barycert/mesh.hpp"
 #include "mesh/face_cut.hpp"
 
 namespace barycert::mesh {

@@ -1,6 +1,16 @@
 #include "mesh/cell_types.hpp"
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
+
+#include "barycert/mesh.hpp"
+#include "core/vtk_cell.hpp"
 
 namespace barycert::mesh {
 namespace {

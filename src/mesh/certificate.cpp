@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstdint>
 #include <functional>
 #include <span>
 #include <string_view>
+
+#include "barycert/mesh.hpp"
 
 namespace barycert {
 namespace {

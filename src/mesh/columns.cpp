@@ -1,10 +1,18 @@
 #include "mesh/columns.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <iterator>
 #include <limits>
+#include <span>
+#include <string>
+#include <string_view>
 #include <type_traits>
+#include <variant>
+#include <vector>
 
+#include "barycert/mesh.hpp"
 #include "core/base/text.hpp"
 
 namespace barycert::mesh {

@@ -1,6 +1,12 @@
 /// Columns that are carried through, value by value.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
 #include "barycert/mesh.hpp"
 
 namespace barycert::mesh {

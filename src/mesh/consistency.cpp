@@ -1,7 +1,15 @@
 #include "mesh/consistency.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
 
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
 #include "core/base/finite.hpp"
 #include "mesh/mid_edges.hpp"
 #include "mesh/threads/arena.hpp"

@@ -1,7 +1,11 @@
 /// Whether a mesh in memory is whole.
 #pragma once
 
+#include <cstddef>
+#include <span>
+
 #include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
 
 namespace barycert::mesh {
 

@@ -1,13 +1,23 @@
 // Second-order cells whose sides are not straight.
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "barycert/environment.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
 #include "core/base/text.hpp"
 #include "core/shape_functions.hpp"
+#include "mesh/cell_types.hpp"
 #include "mesh/mid_edges.hpp"
-#include "mesh/pulling.hpp"
 #include "mesh/straight_nodes.hpp"
 #include "mesh/threads/arena.hpp"
 

@@ -1,9 +1,15 @@
 #include "mesh/face_cut.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <numeric>
+#include <span>
+#include <utility>
+#include <vector>
 
+#include "barycert/mesh.hpp"
 #include "barycert/predicates.hpp"
 #include "core/base/vectors.hpp"
 

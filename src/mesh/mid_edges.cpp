@@ -1,10 +1,15 @@
 #include "mesh/mid_edges.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <optional>
+#include <span>
 
 #include "barycert/environment.hpp"
+#include "barycert/mesh.hpp"
 
 namespace barycert::mesh {
 namespace {

@@ -1,7 +1,10 @@
 /// In which order a file lists the mid-edge nodes of its second-order cells.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <optional>
+#include <span>
 
 #include "barycert/mesh.hpp"
 

@@ -1,6 +1,14 @@
 #include "mesh/part.hpp"
 
+#include <array>
 #include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "barycert/mesh.hpp"
 
 namespace barycert::mesh {
 

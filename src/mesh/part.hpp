@@ -1,6 +1,9 @@
 /// Some cells of a mesh as a mesh of their own.
 #pragma once
 
+#include <cstddef>
+#include <vector>
+
 #include "barycert/mesh.hpp"
 
 namespace barycert::mesh {

@@ -3,16 +3,28 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <deque>
+#include <initializer_list>
 #include <numeric>
+#include <optional>
+#include <span>
+#include <string>
 #include <unordered_map>
+#include <utility>
+#include <vector>
 
+#include "barycert/mesh.hpp"
 #include "barycert/predicates.hpp"
 #include "core/base/finite.hpp"
 #include "core/base/large_pages.hpp"
+#include "core/vtk_cell.hpp"
 #include "mesh/cell_rings.hpp"
 #include "mesh/cell_types.hpp"
 #include "mesh/columns.hpp"
+#include "mesh/face_cut.hpp"
 #include "mesh/part.hpp"
 #include "mesh/solid_cut.hpp"
 #include "mesh/threads/arena.hpp"

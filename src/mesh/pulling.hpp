@@ -8,11 +8,17 @@
 /// told.
 #pragma once
 
+#include <array>
 #include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
 
 #include "barycert/mesh.hpp"
 #include "barycert/simplex.hpp"
-#include "mesh/cell_types.hpp"
 
 namespace barycert::mesh {
 

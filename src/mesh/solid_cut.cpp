@@ -1,8 +1,15 @@
 #include "mesh/solid_cut.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
 
+#include "barycert/mesh.hpp"
 #include "barycert/predicates.hpp"
+#include "mesh/face_cut.hpp"
 #include "mesh/tetrahedra_search.hpp"
 
 namespace barycert::mesh {

@@ -6,8 +6,11 @@
 /// (tetrahedra_search.hpp).
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <vector>
 
+#include "barycert/mesh.hpp"
 #include "mesh/face_cut.hpp"
 
 namespace barycert::mesh {

@@ -1,11 +1,14 @@
 #include "mesh/straight_nodes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <limits>
+#include <span>
 
 namespace barycert::mesh {
 namespace {

@@ -1,7 +1,15 @@
 #include "barycert/table.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "barycert/mesh.hpp"
+#include "barycert/simplex.hpp"
 
 namespace barycert {
 

@@ -1,14 +1,23 @@
 #include "mesh/tetrahedra_search.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bitset>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <iterator>
 #include <map>
+#include <span>
 #include <unordered_map>
+#include <utility>
+#include <vector>
 
+#include "barycert/mesh.hpp"
 #include "barycert/predicates.hpp"
+#include "core/base/vectors.hpp"
 #include "core/whole_points.hpp"
+#include "mesh/face_cut.hpp"
 
 namespace barycert::mesh {
 namespace {

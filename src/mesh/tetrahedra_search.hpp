@@ -9,6 +9,11 @@
 /// tell is hard (Ruppert and Seidel 1992): the search ends after a fixed amount of work.
 #pragma once
 
+#include <array>
+#include <span>
+#include <vector>
+
+#include "barycert/mesh.hpp"
 #include "mesh/face_cut.hpp"
 
 namespace barycert::mesh {

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include "barycert/audit_report.hpp"
+#include "barycert/choices.hpp"
 #include "bindings.hpp"
 
 namespace barycert::python {

@@ -1,6 +1,8 @@
 #include <map>
 #include <set>
 
+#include "core/vtk_cell.hpp"
+#include "mesh/cell_types.hpp"
 #include "mesh/consistency.hpp"
 #include "mesh/pulling.hpp"
 #include "tests/mesh/shaped_mesh.hpp"

@@ -7,6 +7,8 @@
 #include <numeric>
 #include <random>
 
+#include "core/vtk_cell.hpp"
+#include "mesh/cell_types.hpp"
 #include "mesh/pulling.hpp"
 
 namespace barycert::test {

@@ -1,4 +1,6 @@
 #include "mesh/solid_cut.hpp"
+#include "core/vtk_cell.hpp"
+#include "mesh/cell_types.hpp"
 #include "mesh/pulling.hpp"
 
 #include "tests/mesh/cut_oracle.hpp"

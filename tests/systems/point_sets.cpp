@@ -10,6 +10,7 @@
 
 #include "barycert/grid.hpp"
 #include "core/base/random.hpp"
+#include "mesh/cell_types.hpp"
 #include "mesh/pulling.hpp"
 #include "tests/mesh/whole_cells.hpp"
 #include "tests/systems/test_meshes.hpp"

@@ -1,6 +1,32 @@
 // barycert audit: run kernels over families of cases against the oracle and report.
 
+#include "barycert/audit.hpp"
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
 #include "app/cli/audit_inputs.hpp"
+#include "app/cli/command.hpp"
+#include "app/cli/options.hpp"
+#include "app/cli/reports.hpp"
+#include "barycert/audit_job.hpp"
+#include "barycert/audit_pictures.hpp"
+#include "barycert/audit_report.hpp"
+#include "barycert/baseline.hpp"
+#include "barycert/family.hpp"
+#include "barycert/kernels.hpp"
+#include "barycert/mutants.hpp"
+#include "barycert/report.hpp"
+#include "barycert/result.hpp"
+#include "barycert/threshold.hpp"
+#include "files/named_file.hpp"
 
 namespace barycert::cli {
 namespace {

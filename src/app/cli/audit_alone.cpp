@@ -1,11 +1,19 @@
 // What barycert-audit has in place of what only barycert has: readers of other formats than TetGen's, checks and rules
 // are much of the time of building.
 
+#include <cstdint>
 #include <fstream>
+#include <string>
+#include <vector>
 
 #include "app/cli/audit_inputs.hpp"
-#include "barycert/tetgen_files.hpp"
+#include "app/cli/command.hpp"
 #include "app/cli/tetgen_alone.hpp"
+#include "barycert/certificate.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/mesh_files.hpp"
+#include "barycert/result.hpp"
+#include "barycert/tetgen_files.hpp"
 
 namespace barycert::cli {
 namespace {
@@ -20,9 +28,10 @@ std::vector<std::uint64_t> own_certificates() {
 }
 
 [[noreturn]] void refuse_rules(const char* option) {
-    throw Exception({.code = "option.unfit",
-                     .what = fmt::format("barycert-audit does not know {}", option),
-                     .remedy = fmt::format("`barycert audit {}` does; among the sources: ./run audit {}", option, option)});
+    throw Exception(
+        {.code = "option.unfit",
+         .what = fmt::format("barycert-audit does not know {}", option),
+         .remedy = fmt::format("`barycert audit {}` does; among the sources: ./run audit {}", option, option)});
 }
 
 }  // namespace

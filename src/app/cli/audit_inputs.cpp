@@ -1,11 +1,29 @@
 #include "app/cli/audit_inputs.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <iterator>
+#include <string>
+#include <system_error>
+#include <vector>
 
-#include "barycert/audit_search.hpp"
+#include "app/cli/command.hpp"
+#include "app/cli/options.hpp"
+#include "app/cli/reports.hpp"
+#include "app/options/command_table.hpp"
+#include "barycert/audit_job.hpp"
+#include "barycert/audit_report.hpp"
+#include "barycert/choices.hpp"
+#include "barycert/family.hpp"
 #include "barycert/gaps.hpp"
+#include "barycert/kernels.hpp"
+#include "barycert/report.hpp"
+#include "barycert/result.hpp"
+#include "barycert/statistics.hpp"
+#include "barycert/threshold.hpp"
 #include "core/base/nearest_name.hpp"
+#include "core/base/text.hpp"
 
 namespace barycert::cli {
 namespace {

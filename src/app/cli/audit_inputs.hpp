@@ -1,11 +1,27 @@
 /// Inputs of an audit, named by the words of the user: meshes, kernels and families.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
 
-#include "barycert/audit_job.hpp"
-#include "barycert/audit_report.hpp"
+#include "app/cli/command.hpp"
+#include "app/cli/options.hpp"
 #include "app/cli/reports.hpp"
+#include "barycert/audit.hpp"
+#include "barycert/audit_job.hpp"
+#include "barycert/certificate.hpp"
+#include "barycert/choices.hpp"
+#include "barycert/kernels.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/mesh_files.hpp"
+#include "barycert/report.hpp"
+#include "barycert/result.hpp"
+#include "barycert/threshold.hpp"
+#include "core/base/text.hpp"
+#include "files/named_file.hpp"
 
 namespace barycert::cli {
 

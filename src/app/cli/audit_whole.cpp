@@ -1,9 +1,19 @@
 // What barycert-audit has only a part of: all formats of meshes, checks of them, audits of rules.
 
+#include <string>
+#include <vector>
+
 #include "app/cli/audit_inputs.hpp"
+#include "app/cli/reports.hpp"
+#include "barycert/audit.hpp"
+#include "barycert/audit_job.hpp"
+#include "barycert/audit_report.hpp"
+#include "barycert/certificate.hpp"
 #include "barycert/inverse_rules.hpp"
+#include "barycert/mesh.hpp"
 #include "barycert/mesh_files.hpp"
-#include "barycert/rule_audit.hpp"
+#include "barycert/report.hpp"
+#include "barycert/result.hpp"
 #include "barycert/surface_rules.hpp"
 
 namespace barycert::cli {

@@ -1,8 +1,18 @@
 // barycert check: is a mesh a partition of its domain? Proved in exact arithmetic, or the reasons why not.
 
-#include "app/report/check/check_words.hpp"
+#include <cstddef>
+
 #include "app/cli/check_parts.hpp"
+#include "app/cli/command.hpp"
+#include "app/cli/options.hpp"
 #include "app/cli/reports.hpp"
+#include "app/report/check/check_words.hpp"
+#include "barycert/check_job.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/report.hpp"
+#include "barycert/result.hpp"
+#include "core/base/text.hpp"
+#include "files/format.hpp"
 
 namespace barycert::cli {
 namespace {
@@ -74,11 +84,11 @@ a PLC, if it is valid and encloses a region: then TetGen can mesh it. --delaunay
     o.text("--vtu", job.measures,
            "Write the mesh with measures and defects of each cell as VTU (a surface: .vtp), for ParaView");
     o.text("--picture", job.picture, "Draw a surface from two sides, triangles with defects red: .png");
-    auto* const all = o.text("--fix", job.fix,
-                             "Write a copy with what has one right answer repaired, and check it: coincident nodes "
-                             "merged, degenerate and duplicate cells dropped, negative cells turned: " +
-                                 base::suffix_list_written(base::Use::mesh) +
-                                 ", or TetGen's STEM.node, STEM.ele (.face, .neigh)");
+    auto* const all =
+        o.text("--fix", job.fix,
+               "Write a copy with what has one right answer repaired, and check it: coincident nodes "
+               "merged, degenerate and duplicate cells dropped, negative cells turned: " +
+                   base::suffix_list_written(base::Use::mesh) + ", or TetGen's STEM.node, STEM.ele (.face, .neigh)");
     o.number("--merge-within", job.merge_within, 0, "With --fix, merge nodes of cells at most so far apart",
              "DISTANCE");
     o.text("--fix-orientation", job.fix_orientation, "Write a copy with negative cells turned, and no other repair")

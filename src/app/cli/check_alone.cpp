@@ -1,13 +1,18 @@
 // What barycert-check has in place of what only barycert has: readers of other formats than TetGen's, writers and
 // pictures are much of the time of building.
 
+#include <string>
 #include <utility>
+#include <vector>
 
-#include "app/jobs/checked_mesh.hpp"
-#include "barycert/tetgen_files.hpp"
 #include "app/cli/check_parts.hpp"
-#include "files/named_file.hpp"
 #include "app/cli/tetgen_alone.hpp"
+#include "app/jobs/checked_mesh.hpp"
+#include "barycert/check.hpp"
+#include "barycert/check_job.hpp"
+#include "barycert/result.hpp"
+#include "barycert/tetgen_files.hpp"
+#include "files/named_file.hpp"
 
 namespace barycert::cli {
 namespace {

@@ -1,7 +1,11 @@
 // What barycert-check has only a part of: all formats, repaired copies, pages and pictures.
 
-#include "barycert/report.hpp"
+#include <string>
+
 #include "app/cli/check_parts.hpp"
+#include "barycert/check_job.hpp"
+#include "barycert/report.hpp"
+#include "barycert/result.hpp"
 
 namespace barycert::cli {
 

@@ -3,16 +3,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <string>
+#include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
 #include "barycert/error_report.hpp"
+#include "barycert/result.hpp"
 #include "core/base/text.hpp"
 #include "files/named_file.hpp"
 #include "files/output_file.hpp"

@@ -1,6 +1,9 @@
 /// Steps of all subcommands around their job: exit codes, messages on stderr, the name by which the program is called.
 #pragma once
 
+#include <string>
+#include <string_view>
+
 #include "app/options/command_table.hpp"
 #include "barycert/result.hpp"
 
@@ -12,8 +15,8 @@ inline constexpr int exit_error = 2;
 
 class Options;
 
-/// Declares the subcommands of an executable, by those below: barycert has all, barycert-audit the audit's, barycert-check
-/// one.
+/// Declares the subcommands of an executable, by those below: barycert has all, barycert-audit the audit's,
+/// barycert-check one.
 void add_subcommands(const Options& program);
 
 /// What they need done before any thread starts.

@@ -1,9 +1,23 @@
 // Options of pictures.
 
+#include <algorithm>
 #include <cctype>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <utility>
+#include <vector>
 
-#include "draw/colour_map.hpp"
 #include "app/cli/options.hpp"
+#include "barycert/figure.hpp"
+#include "barycert/raster.hpp"
+#include "barycert/scene.hpp"
+#include "barycert/surface.hpp"
+#include "core/base/text.hpp"
+#include "draw/colour_map.hpp"
 
 namespace barycert::cli {
 namespace {

@@ -1,6 +1,23 @@
 // barycert gaps: which points of a mesh a kernel loses between cells, gives to several, or to a wrong one.
 
+#include "barycert/gaps.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <iterator>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "app/cli/audit_inputs.hpp"
+#include "app/cli/options.hpp"
+#include "app/cli/reports.hpp"
+#include "app/options/parser.hpp"
+#include "barycert/audit_job.hpp"
+#include "barycert/audit_report.hpp"
+#include "barycert/choices.hpp"
+#include "core/base/text.hpp"
+#include "files/named_file.hpp"
 
 namespace barycert::cli {
 namespace {

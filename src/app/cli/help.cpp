@@ -2,14 +2,27 @@
 
 #include <fmt/chrono.h>
 
+#include <algorithm>
+#include <charconv>
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
 #include <filesystem>
+#include <functional>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
 
-#include "app/options/command_table.hpp"
-#include "core/base/nearest_name.hpp"
+#include "app/cli/command.hpp"
 #include "app/cli/options.hpp"
+#include "app/options/command_table.hpp"
+#include "app/options/parser.hpp"
+#include "barycert/result.hpp"
+#include "barycert/verify.hpp"
+#include "barycert/verify_job.hpp"
+#include "core/base/nearest_name.hpp"
+#include "files/format.hpp"
 
 namespace barycert::cli {
 namespace {

@@ -1,8 +1,10 @@
 // The executable barycert: one subcommand a file.
 
+#include <signal.h>
 #include <tbb/cache_aligned_allocator.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
@@ -10,14 +12,23 @@
 #include <filesystem>
 #include <iostream>
 #include <new>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <vector>
 
+#include "app/cli/command.hpp"
+#include "app/cli/options.hpp"
+#include "app/options/parser.hpp"
 #include "app/options/want_of_memory.hpp"
 #include "app/tetgen/options.hpp"
 #include "barycert/environment.hpp"
+#include "barycert/result.hpp"
 #include "core/base/nearest_name.hpp"
+#include "core/base/text.hpp"
+#include "files/format.hpp"
 #include "files/input_file.hpp"
 #include "files/output_file.hpp"
-#include "app/cli/options.hpp"
 
 namespace barycert::cli {
 namespace {
@@ -77,10 +88,9 @@ int run(int argc, char** argv) {
     add_subcommands(program);
     // Its options are those of barycert-tetgen, for help and completions; main() has handed all else over.
     barycert::Options of_mesh;
-    add_options(
-        *app.add_subcommand("mesh", "Mesh a PLC (" + base::suffix_list_read(base::Use::plc) +
-                                        ") with TetGen: runs barycert-tetgen"),
-        of_mesh);
+    add_options(*app.add_subcommand("mesh", "Mesh a PLC (" + base::suffix_list_read(base::Use::plc) +
+                                                ") with TetGen: runs barycert-tetgen"),
+                of_mesh);
     add_help(program);
     // After the subcommands, which would take it over.
     app.footer(with_command_name(

@@ -1,6 +1,23 @@
 #include "app/cli/options.hpp"
 
+#include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <iterator>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "app/cli/command.hpp"
 #include "app/options/command_table.hpp"
+#include "barycert/job.hpp"
+#include "barycert/locator.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/series.hpp"
+#include "barycert/table.hpp"
+#include "core/base/text.hpp"
 #include "io/formats.hpp"
 
 namespace barycert::cli {

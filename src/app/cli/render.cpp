@@ -1,7 +1,28 @@
 // barycert render: pictures of scenes and meshes; the rest of its subcommands have files of their own.
 
-#include "core/base/nearest_name.hpp"
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "app/cli/command.hpp"
+#include "app/cli/options.hpp"
 #include "app/cli/reports.hpp"
+#include "app/options/parser.hpp"
+#include "barycert/figure.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/raster.hpp"
+#include "barycert/render_job.hpp"
+#include "barycert/report.hpp"
+#include "barycert/result.hpp"
+#include "barycert/scene.hpp"
+#include "core/base/nearest_name.hpp"
+#include "core/base/text.hpp"
 
 namespace barycert::cli {
 namespace {

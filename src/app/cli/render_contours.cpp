@@ -1,6 +1,18 @@
 // barycert render iso, slice: where a field has a value, in a mesh or on one segment; a plane through a mesh.
 
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "app/cli/command.hpp"
+#include "app/cli/options.hpp"
 #include "app/cli/reports.hpp"
+#include "barycert/contour_job.hpp"
+#include "barycert/figure.hpp"
+#include "barycert/report.hpp"
+#include "barycert/scene.hpp"
+#include "barycert/weights.hpp"
+#include "core/base/text.hpp"
 
 namespace barycert::cli {
 namespace {

@@ -1,6 +1,16 @@
 // barycert render drift, barycert render texels: what the shortcuts of rasterisers cost, against exact arithmetic.
 
+#include <string>
+#include <vector>
+
 #include "app/cli/audit_inputs.hpp"
+#include "app/cli/command.hpp"
+#include "app/cli/options.hpp"
+#include "app/cli/reports.hpp"
+#include "barycert/audit_pictures.hpp"
+#include "barycert/audit_report.hpp"
+#include "barycert/choices.hpp"
+#include "barycert/result.hpp"
 
 namespace barycert::cli {
 namespace {

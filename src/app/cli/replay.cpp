@@ -1,9 +1,32 @@
 // barycert replay: show a witness, every kernel's weights next to the exact ones.
 
+#include <algorithm>
+#include <cstdint>
 #include <filesystem>
+#include <iterator>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
 
 #include "app/cli/audit_inputs.hpp"
+#include "app/cli/command.hpp"
+#include "app/cli/options.hpp"
+#include "app/cli/reports.hpp"
+#include "app/options/parser.hpp"
+#include "barycert/audit_job.hpp"
+#include "barycert/audit_report.hpp"
+#include "barycert/choices.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/error_codes.hpp"
+#include "barycert/kernels.hpp"
+#include "barycert/report.hpp"
+#include "barycert/result.hpp"
+#include "barycert/simplex.hpp"
+#include "barycert/witness.hpp"
 #include "core/base/nearest_name.hpp"
+#include "core/base/text.hpp"
 
 namespace barycert::cli {
 namespace {

@@ -2,9 +2,21 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
+#include "app/cli/command.hpp"
+#include "app/cli/options.hpp"
 #include "app/options/want_of_memory.hpp"
+#include "barycert/job.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/report.hpp"
+#include "barycert/result.hpp"
+#include "files/named_file.hpp"
 
 namespace barycert::cli {
 

@@ -1,12 +1,27 @@
 /// A job run, and its reports written: files, the table or summary, what is told besides, the exit code.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <deque>
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
-#include "barycert/report.hpp"
-#include "files/named_file.hpp"
+#include "app/cli/command.hpp"
 #include "app/cli/options.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/figure.hpp"
+#include "barycert/job.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/report.hpp"
+#include "barycert/result.hpp"
+#include "core/base/text.hpp"
+#include "files/format.hpp"
+#include "files/named_file.hpp"
 
 namespace barycert::cli {
 

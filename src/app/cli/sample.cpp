@@ -1,7 +1,21 @@
 // barycert sample, resample: the fields of a mesh at points, on a regular grid, or at the nodes of another mesh.
 
-#include "core/base/nearest_name.hpp"
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "app/cli/command.hpp"
+#include "app/cli/options.hpp"
 #include "app/cli/reports.hpp"
+#include "barycert/figure.hpp"
+#include "barycert/report.hpp"
+#include "barycert/result.hpp"
+#include "barycert/sample_job.hpp"
+#include "barycert/sampler.hpp"
+#include "core/base/nearest_name.hpp"
+#include "core/base/text.hpp"
+#include "files/format.hpp"
 
 namespace barycert::cli {
 namespace {
@@ -157,8 +171,8 @@ error.)",
              });
     o.text("--onto", job.onto, "Sample at the nodes of this mesh", "MESH2");
     o.text("--output", job.output,
-           "Grids: " + base::suffix_list_written(base::Use::grid) + "; with --onto, meshes: " +
-               base::suffix_list_written(base::Use::mesh) + ", or rows: .csv .npy")
+           "Grids: " + base::suffix_list_written(base::Use::grid) +
+               "; with --onto, meshes: " + base::suffix_list_written(base::Use::mesh) + ", or rows: .csv .npy")
         ->required();
     o.figure(job.figure, "Picture: ");
     add_sampling_options(o, job, a.reports);

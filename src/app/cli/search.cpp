@@ -2,9 +2,23 @@
 
 #include <signal.h>
 
+#include <chrono>
+#include <cstdint>
+#include <string>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 #include "app/cli/audit_inputs.hpp"
+#include "app/cli/command.hpp"
+#include "app/cli/options.hpp"
+#include "app/cli/reports.hpp"
+#include "barycert/audit_report.hpp"
+#include "barycert/audit_search.hpp"
+#include "barycert/choices.hpp"
+#include "barycert/result.hpp"
+#include "barycert/threshold.hpp"
+#include "core/base/text.hpp"
 
 namespace barycert::cli {
 namespace {

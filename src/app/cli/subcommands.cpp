@@ -1,6 +1,7 @@
-// The subcommands of barycert, in the order of its help. barycert-audit and barycert-check have those alone that they are
-// named after.
+// The subcommands of barycert, in the order of its help. barycert-audit and barycert-check have those alone that they
+// are named after.
 #include "app/cli/command.hpp"
+#include "app/options/command_table.hpp"
 
 namespace barycert::cli {
 

@@ -1,6 +1,19 @@
 // barycert verify: results of any tool, held against the exact ones.
 
+#include "barycert/verify.hpp"
+
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/cli/options.hpp"
 #include "app/cli/reports.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/report.hpp"
+#include "barycert/verify_job.hpp"
+#include "core/base/text.hpp"
+#include "files/format.hpp"
 
 namespace barycert::cli {
 namespace {
@@ -40,7 +53,8 @@ Exit codes: 0 all rows are right, 1 some are wrong (see --fail-on), 2 usage or i
     VerifyJob& job = a.job;
     o.mesh(job.mesh);
     o.step(job.step);
-    o.text("--results", job.results, "Points with results: " + base::suffix_list_read(base::Use::points) + "; - is CSV from stdin")
+    o.text("--results", job.results,
+           "Points with results: " + base::suffix_list_read(base::Use::points) + "; - is CSV from stdin")
         ->required();
     o.field_files(job.field_files, "--field");
     o.text("--fields", job.fields,

@@ -2,18 +2,27 @@
 
 #include <tbb/task_arena.h>
 
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "audit/asking.hpp"
 #include "barycert/audit_job.hpp"
+#include "barycert/baseline.hpp"
 #include "barycert/certificate.hpp"
-#include "barycert/check.hpp"
-#include "barycert/check_results.hpp"
-#include "barycert/defect.hpp"
-#include "barycert/fix.hpp"
-#include "barycert/measures.hpp"
-#include "barycert/not_finite.hpp"
-#include "barycert/plc.hpp"
-#include "barycert/surface.hpp"
-#include "barycert/surface_report.hpp"
+#include "barycert/choices.hpp"
+#include "barycert/family.hpp"
+#include "barycert/finding.hpp"
+#include "barycert/gaps.hpp"
+#include "barycert/kernels.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
+#include "barycert/simplex.hpp"
+#include "barycert/witness.hpp"
+#include "core/base/text.hpp"
 
 namespace barycert {
 
@@ -53,7 +62,8 @@ Result<PreparedAudit> prepare_audit(const AuditJob& job, const MeshReader& read,
     out.options.families = choose_families(job.families).value();
     const bool wanted = std::ranges::any_of(out.options.families, &Family::needs_mesh);
     if (wanted || job.meshes_asked)
-        out.meshes = source_of(job.meshes, job.check ? certify : MeshCertifier(), job.options.threads, job.curved, read, out.notes);
+        out.meshes = source_of(job.meshes, job.check ? certify : MeshCertifier(), job.options.threads, job.curved, read,
+                               out.notes);
     if (!job.baseline.empty()) {
         out.baseline = read_baseline(job.baseline).value();
         check_comparable(*out.baseline, out.options, out.meshes).value();
@@ -121,8 +131,7 @@ Result<Witness> make_witness(const CaseJob& job, const std::vector<Kernel>& kern
 Result<GapsReport> gaps_file(const GapsJob& job, const MeshReader& read, const MeshCertifier& certify) try {
     Notes notes;
     const Mesh mesh = cells_of(job.mesh, job.options.threads, job.curved, read, notes);
-    const Verdict verdict =
-        job.check ? certify(mesh, job.options.threads).verdict_on(mesh) : Verdict::not_checked;
+    const Verdict verdict = job.check ? certify(mesh, job.options.threads).verdict_on(mesh) : Verdict::not_checked;
     GapsReport report = find_gaps(job.options, mesh, job.mesh, verdict).value();
     report.notes = std::move(notes);
     return report;

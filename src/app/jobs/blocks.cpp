@@ -1,11 +1,20 @@
 #include <tbb/parallel_pipeline.h>
 
+#include <algorithm>
 #include <atomic>
+#include <cstddef>
+#include <cstdint>
 #include <exception>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
 
+#include "app/jobs/job_files.hpp"
 #include "app/jobs/stream.hpp"
 #include "barycert/environment.hpp"
-#include "mesh/locate/batch.hpp"
+#include "barycert/locator.hpp"
+#include "mesh/locate/locator_data.hpp"
 #include "mesh/threads/arena.hpp"
 
 namespace barycert::jobs {

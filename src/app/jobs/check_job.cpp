@@ -1,13 +1,38 @@
 // A mesh checked, its measures written, and a repaired copy of it.
 
+#include "barycert/check_job.hpp"
+
 #include <algorithm>
+#include <optional>
+#include <string>
 #include <tuple>
+#include <utility>
+#include <variant>
+#include <vector>
 
 #include "app/jobs/checked_mesh.hpp"
 #include "app/jobs/job_files.hpp"
+#include "barycert/certificate.hpp"
+#include "barycert/check.hpp"
+#include "barycert/defect.hpp"
+#include "barycert/figure.hpp"
+#include "barycert/fix.hpp"
+#include "barycert/measures.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/mesh_files.hpp"
+#include "barycert/plc.hpp"
+#include "barycert/plc_files.hpp"
+#include "barycert/raster.hpp"
+#include "barycert/result.hpp"
+#include "barycert/surface.hpp"
+#include "barycert/surface_files.hpp"
+#include "barycert/table.hpp"
+#include "barycert/tetgen_files.hpp"
+#include "barycert/vtk_files.hpp"
+#include "files/format.hpp"
+#include "files/named_file.hpp"
 #include "io/formats.hpp"
 #include "io/polygons/triangles.hpp"
-#include "files/format.hpp"
 
 namespace barycert {
 

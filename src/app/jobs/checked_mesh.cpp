@@ -1,9 +1,13 @@
 #include "app/jobs/checked_mesh.hpp"
 
 #include <algorithm>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "barycert/check.hpp"
+#include "barycert/check_job.hpp"
+#include "barycert/mesh.hpp"
 #include "files/suffix.hpp"
 
 namespace barycert::jobs {

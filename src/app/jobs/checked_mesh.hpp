@@ -4,7 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "barycert/check.hpp"
 #include "barycert/check_job.hpp"
+#include "barycert/mesh.hpp"
 
 namespace barycert::jobs {
 

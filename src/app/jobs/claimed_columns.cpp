@@ -2,9 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
 
 #include "app/jobs/job_files.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
+#include "barycert/sampler.hpp"
+#include "barycert/table.hpp"
+#include "barycert/verify_job.hpp"
 #include "core/base/nearest_name.hpp"
+#include "core/base/text.hpp"
 #include "mesh/sample/quantity/quantities.hpp"
 
 namespace barycert::jobs {

@@ -1,21 +1,43 @@
 // Iso-surfaces, iso-lines and slices, to files of surfaces and pictures.
 
+#include "barycert/contour_job.hpp"
+
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "app/jobs/field_files.hpp"
 #include "app/jobs/job_files.hpp"
 #include "app/jobs/mesh_figure.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/error_codes.hpp"
+#include "barycert/figure.hpp"
+#include "barycert/locator.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/raster.hpp"
+#include "barycert/render_job.hpp"
+#include "barycert/result.hpp"
+#include "barycert/sampler.hpp"
+#include "barycert/surface.hpp"
+#include "barycert/table.hpp"
 #include "core/base/strict_math.hpp"
+#include "core/base/text.hpp"
 #include "core/base/vectors.hpp"
+#include "files/format.hpp"
 #include "files/input_file.hpp"
-#include "io/formats.hpp"
 #include "mesh/index/box_tree.hpp"
 #include "mesh/sample/quantity/quantities.hpp"
 #include "mesh/surface/parts.hpp"
 #include "mesh/threads/arena.hpp"
-#include "files/format.hpp"
 
 namespace barycert {
 

@@ -1,16 +1,36 @@
 #include "app/jobs/field_files.hpp"
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
 #include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <variant>
+#include <vector>
 
 #include "app/jobs/job_files.hpp"
+#include "barycert/error_codes.hpp"
+#include "barycert/job.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/mesh_files.hpp"
+#include "barycert/result.hpp"
+#include "barycert/sampler.hpp"
+#include "barycert/surface.hpp"
+#include "barycert/surface_files.hpp"
 #include "core/base/nearest_name.hpp"
+#include "core/base/text.hpp"
+#include "files/format.hpp"
 #include "io/formats.hpp"
 #include "io/vtk/numbers.hpp"
 #include "mesh/columns.hpp"
 #include "mesh/part.hpp"
 #include "mesh/pulling.hpp"
 #include "mesh/sample/quantity/quantities.hpp"
-#include "files/format.hpp"
 
 namespace barycert::jobs {
 
@@ -168,8 +188,8 @@ void check_label(const Mesh& mesh, const Column& label) {
 bool is_file_of_a_mesh(const std::string& path) {
     if (base::is_read_as(path, Use::mesh)) return true;
     std::error_code ignored;  // what is no regular file is not opened to look at it
-    return !base::is_read_as(path, Use::field) &&
-           std::filesystem::is_regular_file(path, ignored) && io::mesh_format(path);
+    return !base::is_read_as(path, Use::field) && std::filesystem::is_regular_file(path, ignored) &&
+           io::mesh_format(path);
 }
 
 Field read_field(const Mesh& mesh, FieldFile& file, Notes& notes) {

@@ -1,10 +1,29 @@
 #include "app/jobs/integrals.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
 #include <tuple>
+#include <utility>
+#include <vector>
 
+#include "app/jobs/job_files.hpp"
+#include "app/jobs/sampled_mesh.hpp"
+#include "app/jobs/stream.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
+#include "barycert/sample_job.hpp"
+#include "barycert/sampler.hpp"
+#include "barycert/table.hpp"
+#include "core/base/text.hpp"
+#include "core/integer.hpp"
 #include "core/scaled_double.hpp"
 #include "mesh/check/stages.hpp"
+#include "mesh/index/exact_volumes.hpp"
 #include "mesh/sample/quantity/quantities.hpp"
 #include "mesh/threads/arena.hpp"
 

@@ -1,7 +1,11 @@
 /// Integrals that show what becomes of cell fields that are sampled at the nodes of another mesh.
 #pragma once
 
+#include <functional>
+
+#include "app/jobs/sampled_mesh.hpp"
 #include "app/jobs/stream.hpp"
+#include "barycert/mesh.hpp"
 
 namespace barycert::jobs {
 

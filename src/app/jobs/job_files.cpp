@@ -2,12 +2,29 @@
 
 #include <sys/stat.h>
 
+#include <algorithm>
+#include <cstddef>
+#include <map>
+#include <optional>
 #include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "app/jobs/field_files.hpp"
+#include "barycert/job.hpp"
+#include "barycert/locator.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/mesh_files.hpp"
+#include "barycert/result.hpp"
+#include "barycert/sample_job.hpp"
+#include "barycert/series.hpp"
+#include "barycert/table.hpp"
+#include "barycert/vtk_files.hpp"
 #include "core/base/workers.hpp"
-#include "io/formats.hpp"
 #include "files/format.hpp"
+#include "files/named_file.hpp"
+#include "io/formats.hpp"
 
 namespace barycert::jobs {
 
@@ -137,8 +154,7 @@ void check_files(const SamplingJob& job, const std::vector<Step>& steps, std::ve
                  std::vector<base::NamedFile> outputs) {
     if (!job.weights.empty() && !base::is_written_as(job.weights, Use::weights))
         refuse_member("file.suffix", "job.weights", job.weights, "unknown suffix of job.weights",
-                      base::suffixes_written(Use::weights), "",
-                      "choose another name");
+                      base::suffixes_written(Use::weights), "", "choose another name");
     check_vtk_data(job.vtk_data, job.output);
     std::vector<base::NamedFile> of_steps;
     add_fields_to(of_steps, job.series);

@@ -2,21 +2,41 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <map>
 #include <set>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "app/jobs/field_files.hpp"
 #include "app/jobs/job_files.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/figure.hpp"
+#include "barycert/locator.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/raster.hpp"
+#include "barycert/render_job.hpp"
+#include "barycert/result.hpp"
 #include "barycert/sampler.hpp"
+#include "barycert/simplex.hpp"
+#include "barycert/surface.hpp"
+#include "barycert/table.hpp"
 #include "core/base/range.hpp"
 #include "core/base/strict_math.hpp"
+#include "core/base/text.hpp"
 #include "core/base/vectors.hpp"
-#include "io/formats.hpp"
+#include "draw/viewer/page.hpp"
+#include "files/format.hpp"
 #include "mesh/part.hpp"
 #include "mesh/pulling.hpp"
 #include "mesh/surface/edges.hpp"
 #include "mesh/surface/parts.hpp"
-#include "files/format.hpp"
 
 namespace barycert::jobs {
 namespace {

@@ -2,8 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <cstddef>
+#include <memory>
+
 #include "app/jobs/job_files.hpp"
 #include "app/jobs/profile.hpp"
+#include "barycert/point_files.hpp"
+#include "barycert/sample_job.hpp"
+#include "barycert/table.hpp"
 #include "files/format.hpp"
 
 namespace barycert::jobs {

@@ -5,6 +5,7 @@
 
 #include "barycert/point_files.hpp"
 #include "barycert/sample_job.hpp"
+#include "barycert/table.hpp"
 
 namespace barycert::jobs {
 

@@ -1,12 +1,33 @@
 #include "app/jobs/profile.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
 
+#include "app/jobs/job_files.hpp"
+#include "app/jobs/stream.hpp"
 #include "barycert/environment.hpp"
+#include "barycert/figure.hpp"
+#include "barycert/point_files.hpp"
+#include "barycert/result.hpp"
+#include "barycert/sample_job.hpp"
+#include "barycert/sampler.hpp"
+#include "barycert/table.hpp"
+#include "barycert/table_files.hpp"
 #include "core/base/range.hpp"
 #include "core/base/strict_math.hpp"
 #include "draw/axes.hpp"
 #include "draw/files.hpp"
+#include "draw/picture.hpp"
 #include "files/format.hpp"
 
 namespace barycert::jobs {

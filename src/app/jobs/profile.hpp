@@ -1,7 +1,13 @@
 /// Plots of rows: values along the way from point to point, or over the times of a series.
 #pragma once
 
+#include <memory>
+#include <string>
+#include <vector>
+
 #include "app/jobs/stream.hpp"
+#include "barycert/point_files.hpp"
+#include "barycert/sample_job.hpp"
 
 namespace barycert::jobs {
 

@@ -1,13 +1,28 @@
 // Pictures of scenes and of meshes, and small ones that show what rasterising does.
 
-#include <cmath>
-#include <filesystem>
+#include "barycert/render_job.hpp"
 
-#include "app/jobs/field_files.hpp"
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
 #include "app/jobs/job_files.hpp"
 #include "app/jobs/mesh_figure.hpp"
-#include "io/formats.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/figure.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/point_files.hpp"
+#include "barycert/raster.hpp"
+#include "barycert/result.hpp"
+#include "barycert/scene.hpp"
+#include "barycert/weights.hpp"
 #include "files/format.hpp"
+#include "files/named_file.hpp"
 
 namespace barycert {
 

@@ -2,13 +2,46 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
 #include "app/jobs/integrals.hpp"
+#include "app/jobs/job_files.hpp"
+#include "app/jobs/sampled_mesh.hpp"
+#include "app/jobs/stream.hpp"
+#include "barycert/error_codes.hpp"
+#include "barycert/figure.hpp"
+#include "barycert/grid.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/mesh_files.hpp"
+#include "barycert/point_files.hpp"
+#include "barycert/result.hpp"
+#include "barycert/sample_job.hpp"
+#include "barycert/sampler.hpp"
+#include "barycert/table.hpp"
+#include "barycert/table_files.hpp"
+#include "barycert/tetgen_files.hpp"
 #include "core/base/finite.hpp"
+#include "core/base/text.hpp"
+#include "files/format.hpp"
+#include "files/named_file.hpp"
 #include "files/output_file.hpp"
 #include "io/formats.hpp"
 #include "io/npy/npy.hpp"
 #include "io/vti/vti.hpp"
-#include "files/format.hpp"
+#include "io/vtk/numbers.hpp"
+#include "io/vtk/out_file.hpp"
 
 namespace barycert {
 
@@ -284,8 +317,7 @@ void check_job(const ResampleJob& job, const std::vector<jobs::Step>& steps) {
             refuse_member("option.unfit", "job.range", job.output, "job.range needs a picture", "", "",
                           "use job.output FILE.png, or leave job.range out");
         if (job.output != "-" && !base::is_written_as(job.output, Use::grid))
-            jobs::refuse_output(job.output,
-                                base::suffixes_written(Use::grid) + " for a grid, or - for CSV on stdout");
+            jobs::refuse_output(job.output, base::suffixes_written(Use::grid) + " for a grid, or - for CSV on stdout");
         return jobs::check_files(job, steps, {}, {{"job.output", job.output}});
     }
     if (job.figure.range)
@@ -295,8 +327,9 @@ void check_job(const ResampleJob& job, const std::vector<jobs::Step>& steps) {
     if (!is_rows(job.output)) {
         const Result<io::MeshFormat> format = io::mesh_output_format(job.output);
         if (!format)
-            jobs::refuse_output(job.output, "a mesh (" + base::suffix_list_written(Use::mesh) +
-                                                ", a stem of TetGen's files), or rows (.csv .npy, - for CSV on stdout)");
+            jobs::refuse_output(job.output,
+                                "a mesh (" + base::suffix_list_written(Use::mesh) +
+                                    ", a stem of TetGen's files), or rows (.csv .npy, - for CSV on stdout)");
         const std::string stem = tetgen_stem(job.output);
         if (*format == io::MeshFormat::tetgen) outputs = {stem + ".node", stem + ".ele"};
     }

@@ -1,21 +1,45 @@
 // Fields at points.
 
+#include "barycert/sample_job.hpp"
+
 #include <fmt/format.h>
 
-#include <set>
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <iterator>
+#include <memory>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
 
+#include "app/jobs/field_files.hpp"
+#include "app/jobs/job_files.hpp"
 #include "app/jobs/points_of_job.hpp"
 #include "app/jobs/profile.hpp"
+#include "app/jobs/sampled_mesh.hpp"
+#include "app/jobs/stream.hpp"
 #include "app/jobs/surface_rows.hpp"
+#include "barycert/error_codes.hpp"
+#include "barycert/figure.hpp"
 #include "barycert/map.hpp"
-#include "barycert/surface_locator.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/mesh_files.hpp"
+#include "barycert/point_files.hpp"
+#include "barycert/result.hpp"
+#include "barycert/sampler.hpp"
+#include "barycert/surface.hpp"
+#include "barycert/surface_files.hpp"
+#include "barycert/table.hpp"
+#include "barycert/table_files.hpp"
+#include "barycert/weights.hpp"
 #include "core/base/finite.hpp"
-#include "io/formats.hpp"
-#include "io/npz/weights_file.hpp"
-#include "io/polygons/triangles.hpp"
-#include "mesh/sample/quantity/quantities.hpp"
-#include "mesh/threads/arena.hpp"
 #include "files/format.hpp"
+#include "files/input_file.hpp"
+#include "files/named_file.hpp"
+#include "io/formats.hpp"
+#include "io/polygons/triangles.hpp"
 
 namespace barycert {
 
@@ -37,7 +61,8 @@ void check_job(const SampleJob& job, const std::vector<jobs::Step>& steps) {
         refuse_member("option.conflict", "job.line", "",
                       std::string(job.keep.empty() ? "job.columns" : "job.keep") + " cannot be combined with job.line",
                       "", "", "points of a line have no columns");
-    if (!job.plot.empty() && !is_figure_name(job.plot)) jobs::refuse_output(job.plot, base::suffixes_written(Use::picture));
+    if (!job.plot.empty() && !is_figure_name(job.plot))
+        jobs::refuse_output(job.plot, base::suffixes_written(Use::picture));
     if (!job.plot.empty() && (job.all_steps || jobs::has_step_place(job.output)))
         refuse_member("option.conflict", "job.plot", job.plot, "a plot of outputs of steps",
                       "the steps of a field as columns of one output", "",
@@ -182,7 +207,8 @@ SampleReport sampled(const SampleJob& job) {
     }
     std::vector<jobs::Step> steps = jobs::find_steps(job);
     check_job(job, steps);
-    const bool list_grids = !(job.map.empty() && job.save_map.empty()) || job.all.value_or(false) || jobs::needs_listed_grids(job);
+    const bool list_grids =
+        !(job.map.empty() && job.save_map.empty()) || job.all.value_or(false) || jobs::needs_listed_grids(job);
     SampledMesh mesh(job, std::move(steps), "sample", list_grids);
     jobs::tell_stage(job, "reading " + job.mesh);
     std::variant<Mesh, Surface> read =

@@ -2,10 +2,37 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/jobs/field_files.hpp"
+#include "app/jobs/job_files.hpp"
+#include "barycert/certificate.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/job.hpp"
+#include "barycert/locator.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/not_finite.hpp"
+#include "barycert/predicates.hpp"
+#include "barycert/result.hpp"
+#include "barycert/sample_job.hpp"
+#include "barycert/sampler.hpp"
+#include "barycert/series.hpp"
+#include "barycert/table.hpp"
+#include "barycert/table_files.hpp"
+#include "barycert/weights.hpp"
 #include "core/base/finite.hpp"
+#include "core/base/text.hpp"
+#include "mesh/cell_types.hpp"
 #include "mesh/consistency.hpp"
 #include "mesh/locate/cells_at_points.hpp"
-#include "mesh/pulling.hpp"
+#include "mesh/part.hpp"
 #include "mesh/sample/points/chunk_sampler.hpp"
 #include "mesh/sample/quantity/quantities.hpp"
 #include "mesh/surface/parts.hpp"

@@ -1,8 +1,25 @@
 /// The mesh of a job of sampling with its fields, what finds points in it, and what samples the fields.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "app/jobs/field_files.hpp"
 #include "app/jobs/job_files.hpp"
+#include "barycert/locator.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
+#include "barycert/sample_job.hpp"
+#include "barycert/sampler.hpp"
+#include "barycert/series.hpp"
+#include "barycert/table.hpp"
+#include "barycert/table_files.hpp"
 #include "files/input_file.hpp"
 #include "mesh/part.hpp"
 

@@ -1,12 +1,28 @@
 // Series: fields of which there is a file for each step.
 
+#include "barycert/series.hpp"
+
 #include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 #include "app/jobs/field_files.hpp"
 #include "app/jobs/job_files.hpp"
+#include "barycert/job.hpp"
+#include "barycert/result.hpp"
+#include "barycert/sample_job.hpp"
 #include "core/base/nearest_name.hpp"
-#include "io/formats.hpp"
+#include "core/base/text.hpp"
 #include "files/format.hpp"
+#include "files/named_file.hpp"
+#include "io/formats.hpp"
 
 namespace barycert::jobs {
 namespace {

@@ -1,10 +1,33 @@
 #include "app/jobs/stream.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
 #include <set>
+#include <span>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
 
+#include "app/jobs/field_files.hpp"
+#include "app/jobs/job_files.hpp"
+#include "app/jobs/sampled_mesh.hpp"
+#include "barycert/job.hpp"
+#include "barycert/map.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/point_files.hpp"
+#include "barycert/result.hpp"
+#include "barycert/sampler.hpp"
+#include "barycert/table.hpp"
+#include "barycert/table_files.hpp"
+#include "core/base/finite.hpp"
+#include "core/base/text.hpp"
+#include "io/npz/weights_file.hpp"
 #include "mesh/columns.hpp"
 #include "mesh/locate/batch.hpp"
 

@@ -1,8 +1,27 @@
 /// Points through the sampler into rows, block by block: read, located and evaluated, written.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "app/jobs/sampled_mesh.hpp"
+#include "barycert/job.hpp"
+#include "barycert/locator.hpp"
 #include "barycert/map.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/point_files.hpp"
+#include "barycert/result.hpp"
+#include "barycert/sampler.hpp"
+#include "barycert/table.hpp"
+#include "barycert/table_files.hpp"
+#include "barycert/verify.hpp"
 #include "io/npz/weights_file.hpp"
 
 namespace barycert::jobs {

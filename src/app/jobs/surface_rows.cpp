@@ -2,16 +2,31 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <iterator>
 #include <limits>
+#include <memory>
+#include <optional>
 #include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "app/jobs/field_files.hpp"
+#include "app/jobs/job_files.hpp"
 #include "app/jobs/points_of_job.hpp"
 #include "app/jobs/stream.hpp"
 #include "app/jobs/surface_words.hpp"
 #include "barycert/map.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/point_files.hpp"
+#include "barycert/sample_job.hpp"
+#include "barycert/sampler.hpp"
+#include "barycert/simplex.hpp"
+#include "barycert/surface.hpp"
 #include "barycert/surface_locator.hpp"
+#include "barycert/table.hpp"
+#include "barycert/table_files.hpp"
 #include "core/base/finite.hpp"
 #include "io/npz/weights_file.hpp"
 #include "mesh/sample/quantity/quantities.hpp"
@@ -166,9 +181,7 @@ TableFormat format_of(const SampleJob& job, const std::vector<FieldOfSurface>& f
 }
 
 RowSource rows_of_map(MapReader& map) {
-    const auto read = [&map](std::size_t most, BlockOfRows& block) {
-        block.size = map.read(most, block.rows).value();
-    };
+    const auto read = [&map](std::size_t most, BlockOfRows& block) { block.size = map.read(most, block.rows).value(); };
     return {.located = true, .count = map.rows(), .read = read};
 }
 

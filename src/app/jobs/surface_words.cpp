@@ -3,7 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
 
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
+#include "barycert/simplex.hpp"
+#include "barycert/surface.hpp"
+#include "barycert/surface_locator.hpp"
 #include "core/base/text.hpp"
 
 namespace barycert::jobs {

@@ -1,6 +1,14 @@
 /// Words of jobs about a surface: where in its polygons points lie, and what is inside.
 #pragma once
 
+#include <array>
+#include <string>
+#include <vector>
+
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
+#include "barycert/simplex.hpp"
+#include "barycert/surface.hpp"
 #include "barycert/surface_locator.hpp"
 
 namespace barycert::jobs {

@@ -1,13 +1,34 @@
 // Results of a tool held against the exact ones.
 
+#include "barycert/verify_job.hpp"
+
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
 #include <numeric>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "app/jobs/claimed_columns.hpp"
+#include "app/jobs/job_files.hpp"
 #include "app/jobs/stream.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/locator.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/point_files.hpp"
+#include "barycert/result.hpp"
+#include "barycert/sampler.hpp"
+#include "barycert/verify.hpp"
 #include "core/base/nearest_name.hpp"
+#include "core/base/text.hpp"
+#include "files/input_file.hpp"
 #include "io/formats.hpp"
 #include "mesh/sample/quantity/quantities.hpp"
 

@@ -1,12 +1,16 @@
 // Completions for shells: for bash a function over tables of words, which needs no package bash-completion; for zsh one
 // for each command, of specifications for _arguments; for fish a line for each option, with its command as condition.
 
-#include "app/options/command_table.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
 
+#include "app/options/command_table.hpp"
 #include "core/base/text.hpp"
 
 namespace barycert::cli {

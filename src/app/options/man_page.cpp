@@ -1,10 +1,14 @@
-#include "app/options/command_table.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
+#include "app/options/command_table.hpp"
 #include "core/base/text.hpp"
 
 namespace barycert::cli {

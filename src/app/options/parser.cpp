@@ -1,8 +1,17 @@
 #include "app/options/parser.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <cstddef>
+#include <exception>
+#include <optional>
+#include <span>
 #include <sstream>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "app/options/command_table.hpp"
 #include "core/base/nearest_name.hpp"

@@ -1,4 +1,12 @@
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
 #include "app/report/common/json.hpp"
+#include "barycert/environment.hpp"
 #include "barycert/report.hpp"
 #include "core/base/text.hpp"
 #include "draw/picture.hpp"

@@ -1,7 +1,27 @@
 // Reports on pictures and on runs of cutting.
 
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
 #include "app/report/common/document.hpp"
+#include "app/report/common/json.hpp"
+#include "app/report/common/terminal_text.hpp"
+#include "barycert/contour_job.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/figure.hpp"
+#include "barycert/job.hpp"
+#include "barycert/raster.hpp"
+#include "barycert/render_job.hpp"
 #include "barycert/report.hpp"
+#include "barycert/result.hpp"
+#include "barycert/scene.hpp"
+#include "barycert/surface.hpp"
+#include "barycert/weights.hpp"
+#include "core/base/text.hpp"
 
 namespace barycert {
 

@@ -1,7 +1,31 @@
 // Report on a run of sampling.
 
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
 #include "app/report/common/document.hpp"
+#include "app/report/common/json.hpp"
+#include "app/report/common/terminal_text.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/figure.hpp"
+#include "barycert/grid.hpp"
+#include "barycert/job.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/not_finite.hpp"
 #include "barycert/report.hpp"
+#include "barycert/result.hpp"
+#include "barycert/sample_job.hpp"
+#include "barycert/sampler.hpp"
+#include "barycert/simplex.hpp"
+#include "barycert/table.hpp"
+#include "barycert/weights.hpp"
+#include "core/base/text.hpp"
 
 namespace barycert {
 

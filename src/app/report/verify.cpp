@@ -1,10 +1,33 @@
 // Report on a verification of results.
 
+#include "barycert/verify.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
 #include "app/report/common/document.hpp"
+#include "app/report/common/json.hpp"
+#include "app/report/common/terminal_text.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/job.hpp"
 #include "barycert/report.hpp"
+#include "barycert/result.hpp"
+#include "barycert/simplex.hpp"
+#include "barycert/verify_job.hpp"
 #include "core/base/decades.hpp"
+#include "core/base/text.hpp"
+#include "draw/axes.hpp"
 #include "draw/files.hpp"
 #include "draw/histogram.hpp"
+#include "draw/picture.hpp"
 
 namespace barycert {
 

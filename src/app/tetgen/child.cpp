@@ -1,5 +1,7 @@
 #include "app/tetgen/child.hpp"
 
+#include <stdio.h>
+#include <stdlib.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -10,10 +12,15 @@
 #include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <span>
+#include <string_view>
+#include <utility>
 
 #include "files/child_process.hpp"
+#include "files/descriptor.hpp"
 #include "files/input_file.hpp"
 #include "files/output_file.hpp"
 

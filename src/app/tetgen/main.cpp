@@ -5,33 +5,42 @@
 ///   mesh WHAT                                    meshed; then
 ///   written SUFFIXES | error MESSAGE             the files
 #include <fmt/format.h>
+#include <signal.h>
+#include <string.h>
 
 #include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstring>
+#include <exception>
 #include <filesystem>
 #include <new>
+#include <optional>
 #include <sstream>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
 
 #include "app/options/want_of_memory.hpp"
+#include "app/tetgen/child.hpp"
+#include "app/tetgen/mesher.hpp"
+#include "app/tetgen/options.hpp"
 #include "barycert/certificate.hpp"
 #include "barycert/check.hpp"
-#include "barycert/check_results.hpp"
 #include "barycert/defect.hpp"
 #include "barycert/environment.hpp"
-#include "barycert/fix.hpp"
-#include "barycert/measures.hpp"
-#include "barycert/not_finite.hpp"
+#include "barycert/error_codes.hpp"
+#include "barycert/mesh.hpp"
 #include "barycert/plc.hpp"
-#include "barycert/surface.hpp"
+#include "barycert/plc_files.hpp"
+#include "barycert/result.hpp"
 #include "barycert/surface_report.hpp"
-#include "app/tetgen/child.hpp"
+#include "barycert/tetgen_files.hpp"
 #include "core/base/text.hpp"
 #include "files/named_file.hpp"
 #include "files/output_file.hpp"
-#include "app/tetgen/mesher.hpp"
-#include "app/tetgen/options.hpp"
 
 namespace barycert {
 namespace {

@@ -3,6 +3,15 @@
 #include <tetgen.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "barycert/mesh.hpp"
+#include "barycert/plc.hpp"
 
 namespace barycert {
 namespace {

@@ -3,15 +3,12 @@
 /// TetGen prints, throws integers, calls exit(), may crash or never end: call make_mesh() in a child (child.hpp).
 #pragma once
 
-#include "barycert/gmsh_files.hpp"
-#include "barycert/mesh_files.hpp"
-#include "barycert/plc_files.hpp"
-#include "barycert/point_files.hpp"
-#include "barycert/series.hpp"
-#include "barycert/surface_files.hpp"
-#include "barycert/table_files.hpp"
-#include "barycert/tetgen_files.hpp"
-#include "barycert/vtk_files.hpp"
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "barycert/mesh.hpp"
+#include "barycert/plc.hpp"
 
 namespace barycert {
 

@@ -5,21 +5,19 @@
 #include <CLI/CLI.hpp>
 #include <cerrno>
 #include <cstring>
+#include <exception>
 #include <filesystem>
 #include <iostream>
 #include <limits>
 #include <new>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
 
 #include "app/options/parser.hpp"
-#include "barycert/gmsh_files.hpp"
-#include "barycert/mesh_files.hpp"
-#include "barycert/plc_files.hpp"
-#include "barycert/point_files.hpp"
-#include "barycert/series.hpp"
-#include "barycert/surface_files.hpp"
-#include "barycert/table_files.hpp"
+#include "barycert/result.hpp"
 #include "barycert/tetgen_files.hpp"
-#include "barycert/vtk_files.hpp"
 #include "core/base/text.hpp"
 
 namespace barycert {

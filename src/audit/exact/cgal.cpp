@@ -10,13 +10,20 @@
 #include <mpfr.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <boost/multiprecision/gmp.hpp>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
 #include <tuple>
 
 #include "audit/exact/cgal_variant.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/oracle.hpp"
+#include "barycert/simplex.hpp"
 
 namespace barycert {
 namespace {

@@ -1,11 +1,14 @@
-#include "barycert/oracle.hpp"
-
 #include <CGAL/Gmpq.h>
 #include <CGAL/Simple_cartesian.h>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <optional>
 
 #include "barycert/environment.hpp"
+#include "barycert/oracle.hpp"
+#include "barycert/simplex.hpp"
 
 namespace barycert {
 

@@ -1,9 +1,16 @@
 #include "barycert/oracle.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
 
 #include "audit/exact/rounding.hpp"
 #include "barycert/environment.hpp"
+#include "barycert/simplex.hpp"
 
 namespace barycert {
 

@@ -1,16 +1,24 @@
 // Inverse maps of cells, compared with barycert's own, which are proved case by case.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <numeric>
+#include <vector>
 
 #include "audit/inverses/reference.hpp"
 #include "audit/rule_loop.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/inverse_rules.hpp"
 #include "barycert/locator.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/simplex.hpp"
 #include "core/base/ulp.hpp"
+#include "core/isoparametric/inverse.hpp"
+#include "core/shape_functions.hpp"
 #include "core/vtk_cell.hpp"
 #include "mesh/pulling.hpp"
 

@@ -1,7 +1,19 @@
 // Cells and points for inverse maps. Only + - * / and powers of two, so that each is the same on every machine.
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
 #include "audit/inverses/reference.hpp"
 #include "audit/recipes.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/inverse_rules.hpp"
+#include "core/base/random.hpp"
+#include "core/isoparametric/inverse.hpp"
+#include "core/shape_functions.hpp"
 #include "core/vtk_cell.hpp"
 
 namespace barycert {

@@ -1,9 +1,16 @@
 // Newton's method for the inverse maps of cells as it is in use: in plain double, with its tolerances.
 
-#include <cmath>
+#include "barycert/inverse_rules.hpp"
 
-#include "audit/inverses/reference.hpp"
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
 #include "core/base/vectors.hpp"
+#include "core/shape_functions.hpp"
 #include "core/vtk_cell.hpp"
 
 namespace barycert {

@@ -1,30 +1,11 @@
 /// Cells of VTK's types 9, 12, 13 and 14, as those who know their maps have them.
 #pragma once
 
-#include "barycert/audit.hpp"
-#include "barycert/baseline.hpp"
-#include "barycert/certificate.hpp"
-#include "barycert/check.hpp"
-#include "barycert/check_results.hpp"
-#include "barycert/choices.hpp"
-#include "barycert/defect.hpp"
-#include "barycert/environment.hpp"
-#include "barycert/family.hpp"
-#include "barycert/finding.hpp"
-#include "barycert/fix.hpp"
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
 #include "barycert/inverse_rules.hpp"
-#include "barycert/kernels.hpp"
-#include "barycert/measures.hpp"
-#include "barycert/not_finite.hpp"
-#include "barycert/oracle.hpp"
-#include "barycert/plc.hpp"
-#include "barycert/rule_audit.hpp"
-#include "barycert/statistics.hpp"
-#include "barycert/surface.hpp"
-#include "barycert/surface_report.hpp"
-#include "barycert/surface_rules.hpp"
-#include "barycert/threshold.hpp"
-#include "barycert/witness.hpp"
 #include "core/isoparametric/inverse.hpp"
 #include "core/vtk_cell.hpp"
 

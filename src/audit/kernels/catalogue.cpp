@@ -1,9 +1,17 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "audit/kernels/registry.hpp"
+#include "audit/kernels/variants.hpp"
 #include "barycert/environment.hpp"
+#include "barycert/kernels.hpp"
+#include "barycert/result.hpp"
+#include "barycert/simplex.hpp"
 #include "barycert/weights.hpp"
 #include "core/base/text.hpp"
 

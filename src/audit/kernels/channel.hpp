@@ -12,12 +12,16 @@
 
 #include <sys/types.h>
 
+#include <array>
 #include <atomic>
+#include <cstdint>
 #include <cstdio>
 #include <limits>
+#include <span>
 
 #include "barycert/kernel.h"
 #include "barycert/kernels.hpp"
+#include "barycert/simplex.hpp"
 
 namespace barycert::kernels {
 

@@ -3,9 +3,14 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstdint>
 #include <cstring>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "audit/kernels/registry.hpp"
+#include "barycert/result.hpp"
 #include "files/input_file.hpp"
 
 namespace barycert::kernels {

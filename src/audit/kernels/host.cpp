@@ -3,18 +3,34 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
 #include <sys/prctl.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <atomic>
+#include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstdint>
 #include <cstring>
-#include <new>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <string>
+#include <utility>
 
+#include "audit/kernels/channel.hpp"
+#include "barycert/result.hpp"
+#include "barycert/simplex.hpp"
 #include "core/base/text.hpp"
 #include "files/child_process.hpp"
+#include "files/descriptor.hpp"
 
 namespace barycert::kernels {
 namespace {

@@ -1,10 +1,18 @@
 /// The process of a user's kernel, seen from the program.
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
+#include <cstdint>
+#include <memory>
 #include <mutex>
+#include <span>
+#include <string>
+#include <vector>
 
 #include "audit/kernels/channel.hpp"
+#include "barycert/result.hpp"
+#include "barycert/simplex.hpp"
 #include "files/child_process.hpp"
 #include "files/descriptor.hpp"
 

@@ -1,6 +1,7 @@
 // The process that forks workers: it has one thread, so that it may. Limits of a worker, and the end of all that a
 // kernel started.
 #include <fcntl.h>
+#include <signal.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -9,11 +10,14 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <span>
 
 #include "audit/kernels/channel.hpp"
 #include "files/child_process.hpp"

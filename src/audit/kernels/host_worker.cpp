@@ -2,17 +2,28 @@
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <pthread.h>
+#include <signal.h>
+#include <stdlib.h>
 #include <sys/prctl.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <cfenv>
 #include <chrono>
 #include <csignal>
+#include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <limits>
+#include <ratio>
 
 #include "audit/kernels/channel.hpp"
 #include "barycert/environment.hpp"
+#include "barycert/simplex.hpp"
 #include "files/descriptor.hpp"
 
 namespace barycert::kernels {

@@ -1,7 +1,10 @@
 // Kernels on segments and triangles in 3-space. On segments each formula of weights comes with two ways to a value,
 // which differ in rounding.
+#include <span>
+
 #include "audit/kernels/registry.hpp"
 #include "audit/kernels/space_formulas.hpp"
+#include "barycert/simplex.hpp"
 
 namespace barycert::kernels {
 namespace {

@@ -2,11 +2,21 @@
 #include <dlfcn.h>
 
 #include <algorithm>
+#include <cfenv>
 #include <cstring>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
 
+#include "audit/kernels/channel.hpp"
 #include "audit/kernels/host.hpp"
 #include "audit/kernels/registry.hpp"
 #include "barycert/environment.hpp"
+#include "barycert/kernel.h"
+#include "barycert/kernels.hpp"
+#include "barycert/result.hpp"
+#include "barycert/simplex.hpp"
 
 namespace barycert {
 namespace {

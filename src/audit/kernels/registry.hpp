@@ -1,8 +1,13 @@
 /// The catalogue as tables of formulas, one a file.
 #pragma once
 
+#include <span>
+#include <string>
+
 #include "audit/kernels/variants.hpp"
 #include "barycert/kernels.hpp"
+#include "barycert/result.hpp"
+#include "barycert/simplex.hpp"
 
 namespace barycert::kernels {
 

@@ -1,10 +1,13 @@
 // Kernels on a tetrahedron.
-#include "audit/kernels/tetrahedron_formulas.hpp"
-
 #include <cmath>
+#include <span>
 
 #include "audit/kernels/linear_formulas.hpp"
 #include "audit/kernels/registry.hpp"
+#include "audit/kernels/tetrahedron_formulas.hpp"
+#include "audit/kernels/variants.hpp"
+#include "audit/kernels/vectors.hpp"
+#include "barycert/simplex.hpp"
 
 namespace barycert::kernels {
 namespace {

@@ -3,11 +3,16 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 
 #include "audit/kernels/linear_formulas.hpp"
 #include "audit/kernels/perspective_formulas.hpp"
 #include "audit/kernels/registry.hpp"
+#include "audit/kernels/variants.hpp"
 #include "barycert/perspective.hpp"
+#include "barycert/result.hpp"
+#include "barycert/simplex.hpp"
+#include "barycert/weights.hpp"
 
 namespace barycert::kernels {
 namespace {

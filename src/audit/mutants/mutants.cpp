@@ -1,9 +1,21 @@
+#include "barycert/mutants.hpp"
+
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "audit/asking.hpp"
-#include "barycert/audit_search.hpp"
-#include "barycert/gaps.hpp"
-#include "barycert/mutants.hpp"
+#include "barycert/audit.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/family.hpp"
+#include "barycert/kernels.hpp"
+#include "barycert/result.hpp"
+#include "barycert/statistics.hpp"
 
 namespace barycert {
 

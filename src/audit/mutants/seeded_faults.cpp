@@ -1,11 +1,26 @@
 // Faults seeded into the catalogue's formulas and into kernels that certify what they say.
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <initializer_list>
+#include <iterator>
+#include <numeric>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "audit/kernels/perspective_formulas.hpp"
 #include "audit/kernels/space_formulas.hpp"
 #include "audit/kernels/tetrahedron_formulas.hpp"
-#include "barycert/audit_search.hpp"
-#include "barycert/gaps.hpp"
+#include "audit/kernels/triangle_formulas.hpp"
+#include "audit/kernels/vectors.hpp"
+#include "barycert/kernels.hpp"
 #include "barycert/mutants.hpp"
+#include "barycert/predicates.hpp"
+#include "barycert/result.hpp"
+#include "barycert/simplex.hpp"
 #include "barycert/weights.hpp"
 #include "core/base/ulp.hpp"
 

@@ -1,9 +1,21 @@
 /// One step of a search: a case, the exact answer, the kernel's; and how bad it is.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
 
 #include "audit/asking.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/finding.hpp"
+#include "barycert/kernels.hpp"
+#include "barycert/oracle.hpp"
+#include "barycert/simplex.hpp"
+#include "barycert/statistics.hpp"
 
 namespace barycert::audit {
 

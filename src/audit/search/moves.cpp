@@ -1,6 +1,16 @@
 #include "audit/search/moves.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
 #include "audit/recipes.hpp"
+#include "audit/search/evaluation.hpp"
+#include "barycert/simplex.hpp"
+#include "core/base/random.hpp"
+#include "core/base/ulp.hpp"
 
 namespace barycert::audit {
 namespace {

@@ -1,10 +1,17 @@
 /// The numbers of a case that a search changes, as one row; the steps of a walk, and where walks start.
 #pragma once
 
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <functional>
+
 #include "audit/search/evaluation.hpp"
+#include "barycert/simplex.hpp"
 #include "core/base/finite.hpp"
 #include "core/base/random.hpp"
-#include "core/base/ulp.hpp"
 
 namespace barycert::audit {
 

@@ -1,9 +1,22 @@
 // Plain witnesses: the same fault on fewer bits.
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "audit/search/evaluation.hpp"
 #include "audit/search/moves.hpp"
 #include "barycert/audit_search.hpp"
-#include "barycert/gaps.hpp"
-#include "barycert/mutants.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/finding.hpp"
+#include "barycert/kernels.hpp"
+#include "barycert/simplex.hpp"
+#include "barycert/witness.hpp"
+#include "core/base/random.hpp"
+#include "core/base/ulp.hpp"
 
 namespace barycert {
 

@@ -1,10 +1,26 @@
-#include "barycert/audit_search.hpp"
-#include "barycert/gaps.hpp"
-#include "barycert/mutants.hpp"
-
+#include <algorithm>
+#include <array>
 #include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "audit/asking.hpp"
+#include "audit/search/evaluation.hpp"
 #include "audit/search/moves.hpp"
+#include "barycert/audit_search.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/family.hpp"
+#include "barycert/finding.hpp"
+#include "barycert/result.hpp"
+#include "barycert/simplex.hpp"
+#include "barycert/witness.hpp"
+#include "core/base/random.hpp"
+#include "core/base/workers.hpp"
 
 namespace barycert {
 

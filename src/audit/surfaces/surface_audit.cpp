@@ -1,7 +1,10 @@
 // Rules on triangles in space, compared with the oracle.
 
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "audit/rule_loop.hpp"
 #include "barycert/environment.hpp"

@@ -1,6 +1,20 @@
 // Cases for the rules on triangles in space. Only + - * / and sqrt, so that each is the same on every machine.
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
 #include "audit/recipes.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/oracle.hpp"
+#include "barycert/simplex.hpp"
+#include "barycert/surface_rules.hpp"
+#include "core/base/random.hpp"
+#include "core/base/vectors.hpp"
 
 namespace barycert {
 

@@ -1,34 +1,23 @@
 // The rules on triangles in space that are in use, faults included.
 
+#include "barycert/surface_rules.hpp"
+
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <limits>
 #include <numbers>
+#include <vector>
 
 #include "audit/kernels/space_formulas.hpp"
-#include "barycert/audit.hpp"
-#include "barycert/baseline.hpp"
+#include "audit/kernels/vectors.hpp"
 #include "barycert/certificate.hpp"
 #include "barycert/check.hpp"
-#include "barycert/check_results.hpp"
-#include "barycert/choices.hpp"
 #include "barycert/defect.hpp"
-#include "barycert/environment.hpp"
-#include "barycert/family.hpp"
-#include "barycert/finding.hpp"
-#include "barycert/fix.hpp"
-#include "barycert/inverse_rules.hpp"
-#include "barycert/kernels.hpp"
-#include "barycert/measures.hpp"
-#include "barycert/not_finite.hpp"
-#include "barycert/oracle.hpp"
-#include "barycert/plc.hpp"
-#include "barycert/rule_audit.hpp"
-#include "barycert/statistics.hpp"
+#include "barycert/mesh.hpp"
 #include "barycert/surface.hpp"
 #include "barycert/surface_locator.hpp"
-#include "barycert/surface_report.hpp"
-#include "barycert/surface_rules.hpp"
-#include "barycert/threshold.hpp"
-#include "barycert/witness.hpp"
 
 namespace barycert {
 

@@ -1,7 +1,7 @@
 /// Sizes of errors by powers of ten: the bins of histograms.
 #pragma once
 
-#include <algorithm>
+#include <algorithm>  // IWYU pragma: keep
 #include <array>
 #include <cstddef>
 #include <string>

@@ -1,6 +1,7 @@
 /// Disjoint sets of numbers, joined two at a time.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <numeric>
 #include <utility>

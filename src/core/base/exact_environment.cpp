@@ -1,10 +1,10 @@
+#include <cstdint>
+
 #include "barycert/environment.hpp"
 
 #if defined(__SSE2__)
 #include <xmmintrin.h>
 #endif
-
-#include "core/base/measured_environment.hpp"
 
 namespace barycert {
 

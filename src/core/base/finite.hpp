@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <span>
+#include <string>
+#include <utility>
 
 #include "barycert/result.hpp"
 

@@ -1,6 +1,7 @@
 /// The floating-point environment of the calling thread, measured by what arithmetic does.
 #pragma once
 
+#include <cfloat>
 #include <string_view>
 
 #include "core/base/strict_math.hpp"

@@ -1,9 +1,10 @@
 // Arithmetic on doubles in an environment of its own: ulps, and random numbers.
-#include "core/base/ulp.hpp"
+#include <cmath>
 
 #include "barycert/environment.hpp"
 #include "core/base/random.hpp"
 #include "core/base/strict_math.hpp"
+#include "core/base/ulp.hpp"
 
 namespace barycert::base {
 

@@ -3,9 +3,18 @@
 #include <fast_float/fast_float.h>
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <system_error>
 
 #include "barycert/environment.hpp"
+#include "barycert/result.hpp"
 
 namespace barycert::base {
 namespace {

@@ -13,6 +13,8 @@
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
+#include <cstdint>
+#include <memory>
 #include <optional>
 
 namespace barycert::core::isoparametric {

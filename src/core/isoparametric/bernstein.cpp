@@ -1,8 +1,15 @@
 #include "core/isoparametric/bernstein.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <map>
 #include <span>
+#include <utility>
+#include <vector>
+
+#include "core/shape_functions.hpp"
 
 namespace barycert::core::isoparametric {
 namespace {

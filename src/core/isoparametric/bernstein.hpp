@@ -8,12 +8,14 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
 #include <vector>
 
 #include "core/isoparametric/inverse.hpp"
+#include "core/shape_functions.hpp"
 
 namespace barycert::core::isoparametric {
 

@@ -1,7 +1,18 @@
 #include "core/isoparametric/cell_polynomial.hpp"
-#include "core/vtk_cell.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <utility>
+#include <vector>
+
+#include "core/isoparametric/ball.hpp"
+#include "core/isoparametric/newton.hpp"
+#include "core/isoparametric/places.hpp"
+#include "core/shape_functions.hpp"
+#include "core/vtk_cell.hpp"
 
 namespace barycert::core::isoparametric {
 namespace {

@@ -5,7 +5,15 @@
 /// vectors that are sums over all nodes, in balls, and those of degree 2 and more are all that changes the Jacobian.
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/isoparametric/ball.hpp"
 #include "core/isoparametric/newton.hpp"
+#include "core/isoparametric/places.hpp"
+#include "core/shape_functions.hpp"
 
 namespace barycert::core::isoparametric {
 

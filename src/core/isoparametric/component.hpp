@@ -1,7 +1,19 @@
 /// Values that are rounded once: sums of shape functions times values at nodes.
 #pragma once
 
-#include "core/isoparametric/newton.hpp"
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "core/isoparametric/ball.hpp"
+#include "core/isoparametric/places.hpp"
+#include "core/shape_functions.hpp"
 
 namespace barycert::core::isoparametric {
 

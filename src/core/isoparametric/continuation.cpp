@@ -1,6 +1,18 @@
 #include "core/isoparametric/continuation.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdlib>
+#include <limits>
+#include <optional>
+
+#include "core/isoparametric/ball.hpp"
+#include "core/isoparametric/cell_polynomial.hpp"
+#include "core/isoparametric/newton.hpp"
+#include "core/isoparametric/places.hpp"
+#include "core/isoparametric/small_matrix.hpp"
+#include "core/shape_functions.hpp"
 
 namespace barycert::core::isoparametric {
 namespace {

@@ -21,7 +21,11 @@
 /// straight in exact numbers.
 #pragma once
 
-#include "core/isoparametric/cell_polynomial.hpp"
+#include <optional>
+
+#include "core/isoparametric/newton.hpp"
+#include "core/isoparametric/places.hpp"
+#include "core/shape_functions.hpp"
 
 namespace barycert::core::isoparametric {
 

@@ -1,8 +1,19 @@
 // How a critical point is found, proved, and enclosed; and told in rational numbers.
 
-#include "core/isoparametric/near_patch.hpp"
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdlib>
+#include <memory>
+#include <optional>
+#include <type_traits>
 
 #include "core/base/vectors.hpp"
+#include "core/isoparametric/ball.hpp"
+#include "core/isoparametric/near_patch.hpp"
+#include "core/isoparametric/patch.hpp"
+#include "core/isoparametric/small_matrix.hpp"
 
 namespace barycert::core::isoparametric {
 namespace {

@@ -1,7 +1,19 @@
 #include "core/isoparametric/inverse.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "barycert/simplex.hpp"
+#include "core/isoparametric/ball.hpp"
 #include "core/isoparametric/component.hpp"
 #include "core/isoparametric/continuation.hpp"
+#include "core/isoparametric/newton.hpp"
+#include "core/isoparametric/places.hpp"
+#include "core/shape_functions.hpp"
 
 namespace barycert::core::isoparametric {
 namespace {

@@ -7,7 +7,9 @@
 /// one double. Where cells are affine, or x turns out to be a number of few bits, all is rational and exact.
 #pragma once
 
-#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
 
 #include "barycert/simplex.hpp"
 #include "core/shape_functions.hpp"

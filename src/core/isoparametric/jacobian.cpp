@@ -1,7 +1,16 @@
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <optional>
+#include <vector>
 
+#include "core/isoparametric/ball.hpp"
 #include "core/isoparametric/bernstein.hpp"
-#include "core/isoparametric/newton.hpp"
+#include "core/isoparametric/inverse.hpp"
+#include "core/isoparametric/places.hpp"
+#include "core/shape_functions.hpp"
 #include "core/vtk_cell.hpp"
 
 namespace barycert::core::isoparametric {

@@ -27,6 +27,9 @@
 //               products by 18 u^2, with f by 9 u^2, sums by 28 u^2: 70 u^2 F; as for X(x) - p 1400 u^2 F
 // Bounds are computed in double: 1 + 2^-40 covers that. Ranges outside which nothing is certain: Q and F in
 // [2^-300, 2^300], or F = 0; then nothing under- or overflows: |Y| <= 2^330 is asked for.
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/isoparametric/lanes.cpp"
 #include "core/foreach_target.hpp"

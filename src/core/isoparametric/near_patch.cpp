@@ -2,9 +2,25 @@
 
 #include "core/isoparametric/near_patch.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <optional>
+#include <type_traits>
+#include <vector>
+
+#include "barycert/simplex.hpp"
 #include "core/base/finite.hpp"
 #include "core/base/vectors.hpp"
+#include "core/isoparametric/ball.hpp"
 #include "core/isoparametric/component.hpp"
+#include "core/isoparametric/inverse.hpp"
+#include "core/isoparametric/patch.hpp"
+#include "core/isoparametric/places.hpp"
+#include "core/shape_functions.hpp"
 
 namespace barycert::core::isoparametric {
 

@@ -9,10 +9,16 @@
 /// off: with 88 bits of x it has twice as many.
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <memory>
-#include <span>
+#include <optional>
 
+#include "core/isoparametric/ball.hpp"
+#include "core/isoparametric/inverse.hpp"
 #include "core/isoparametric/patch.hpp"
+#include "core/shape_functions.hpp"
 
 namespace barycert::core::isoparametric {
 

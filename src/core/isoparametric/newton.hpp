@@ -1,12 +1,19 @@
 /// Newton's method on the map of a cell, and proofs of what it finds: see inverse.hpp.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdlib>
 #include <limits>
+#include <optional>
 
 #include "core/isoparametric/ball.hpp"
 #include "core/isoparametric/inverse.hpp"
 #include "core/isoparametric/places.hpp"
 #include "core/isoparametric/small_matrix.hpp"
+#include "core/shape_functions.hpp"
 
 namespace barycert::core::isoparametric {
 

@@ -1,5 +1,15 @@
 #include "core/isoparametric/patch.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <vector>
+
+#include "core/isoparametric/places.hpp"
+
 namespace barycert::core::isoparametric {
 namespace {
 

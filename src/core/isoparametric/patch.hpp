@@ -8,10 +8,15 @@
 /// X_0 - p, and the patch's own extent by d, each of them in a unit of its own, so that none is lost beside the other.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <type_traits>
+#include <vector>
 
-#include "core/isoparametric/newton.hpp"
+#include "core/isoparametric/ball.hpp"
 
 namespace barycert::core::isoparametric {
 

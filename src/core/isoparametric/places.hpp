@@ -5,9 +5,11 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 
 #include "core/isoparametric/ball.hpp"
 #include "core/isoparametric/inverse.hpp"
+#include "core/shape_functions.hpp"
 #include "core/whole_points.hpp"
 
 namespace barycert::core::isoparametric {

@@ -1,10 +1,20 @@
 // Curved simplices: their Bernstein coefficients, and the sign of the Jacobian.
-#include "core/isoparametric/simplex_basis.hpp"
-
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
 
+#include "core/isoparametric/ball.hpp"
 #include "core/isoparametric/bernstein.hpp"
+#include "core/isoparametric/inverse.hpp"
+#include "core/isoparametric/places.hpp"
+#include "core/isoparametric/simplex_basis.hpp"
+#include "core/isoparametric/small_matrix.hpp"
+#include "core/shape_functions.hpp"
 
 namespace barycert::core::isoparametric {
 namespace {

@@ -6,7 +6,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/isoparametric/newton.hpp"
+#include "core/isoparametric/inverse.hpp"
+#include "core/isoparametric/places.hpp"
+#include "core/shape_functions.hpp"
 
 namespace barycert::core::isoparametric {
 

@@ -2,12 +2,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <optional>
 #include <tuple>
 #include <vector>
 
+#include "core/base/vectors.hpp"
+#include "core/isoparametric/ball.hpp"
+#include "core/isoparametric/inverse.hpp"
 #include "core/isoparametric/newton.hpp"
+#include "core/isoparametric/places.hpp"
 #include "core/isoparametric/simplex_basis.hpp"
+#include "core/isoparametric/small_matrix.hpp"
+#include "core/shape_functions.hpp"
 
 namespace barycert::core::isoparametric {
 namespace {

@@ -3,10 +3,20 @@
 #include <png.h>
 
 #include <algorithm>
+#include <array>
 #include <csetjmp>
+#include <cstdint>
 #include <cstdio>
+#include <functional>
 #include <new>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
+#include "barycert/error_codes.hpp"
+#include "barycert/result.hpp"
 #include "files/input_file.hpp"
 #include "files/output_file.hpp"
 

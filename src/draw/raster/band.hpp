@@ -1,9 +1,24 @@
 /// Rows of pixels, and the samples in them.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <span>
+#include <utility>
+#include <vector>
+
 #include "barycert/perspective.hpp"
+#include "barycert/raster.hpp"
+#include "barycert/scene.hpp"
+#include "barycert/weights.hpp"
 #include "core/base/strict_math.hpp"
+#include "draw/raster/edge.hpp"
 #include "draw/raster/fill_rows.hpp"
+#include "draw/raster/layers.hpp"
 #include "draw/raster/parts.hpp"
 #include "draw/raster/resolve.hpp"
 

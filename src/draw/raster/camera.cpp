@@ -1,12 +1,23 @@
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <numbers>
+#include <optional>
+#include <span>
+#include <string>
 
 #include "barycert/environment.hpp"
+#include "barycert/raster.hpp"
+#include "barycert/result.hpp"
 #include "barycert/scene.hpp"
+#include "barycert/weights.hpp"
 #include "core/base/finite.hpp"
 #include "core/base/strict_math.hpp"
 #include "core/base/text.hpp"
 #include "core/base/vectors.hpp"
+#include "core/integer.hpp"
 #include "core/scaled_double.hpp"
 
 namespace barycert {

@@ -7,9 +7,21 @@
 // difference of two products of differences, 4199 bits; times a double or a difference, and summed over three
 // vertices, that is less than 6302 bits, of 14704 that there are.
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "barycert/environment.hpp"
 #include "barycert/raster.hpp"
+#include "barycert/result.hpp"
 #include "core/base/finite.hpp"
+#include "core/integer.hpp"
 #include "core/scaled_double.hpp"
 
 namespace barycert {

@@ -1,7 +1,20 @@
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "barycert/environment.hpp"
+#include "barycert/predicates.hpp"
+#include "barycert/raster.hpp"
+#include "barycert/result.hpp"
+#include "barycert/weights.hpp"
 #include "core/base/finite.hpp"
+#include "draw/raster/edge.hpp"
 #include "draw/raster/fill_rows.hpp"
 
 namespace barycert {

@@ -3,7 +3,16 @@
 /// upwards.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
 #include "barycert/raster.hpp"
+#include "barycert/simplex.hpp"
+#include "barycert/weights.hpp"
 #include "draw/raster/edge.hpp"
 
 namespace barycert::raster {

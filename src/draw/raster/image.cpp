@@ -1,6 +1,14 @@
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+#include <utility>
+
 #include "barycert/environment.hpp"
 #include "barycert/raster.hpp"
-#include "core/base/finite.hpp"
+#include "barycert/result.hpp"
 #include "core/base/strict_math.hpp"
 #include "draw/png/png_file.hpp"
 #include "draw/raster/colour_bytes.hpp"

@@ -3,12 +3,21 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <mutex>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "barycert/environment.hpp"
+#include "barycert/raster.hpp"
+#include "barycert/scene.hpp"
+#include "barycert/weights.hpp"
 #include "core/base/lists.hpp"
 #include "core/exact_tier.hpp"
 #include "draw/raster/band.hpp"
+#include "draw/raster/parts.hpp"
 #include "mesh/threads/arena.hpp"
 
 namespace barycert::raster {

@@ -9,9 +9,16 @@
 /// triangle has one colour in a pixel: that of the middle of the samples that it covers there.
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <span>
+#include <vector>
 
+#include "barycert/raster.hpp"
 #include "barycert/scene.hpp"
+#include "barycert/weights.hpp"
 
 namespace barycert::raster {
 

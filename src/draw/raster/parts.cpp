@@ -1,9 +1,18 @@
 #include "draw/raster/parts.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
 
+#include "barycert/predicates.hpp"
+#include "barycert/raster.hpp"
+#include "barycert/scene.hpp"
+#include "barycert/weights.hpp"
 #include "core/base/strict_math.hpp"
+#include "draw/raster/layers.hpp"
 
 namespace barycert::raster {
 

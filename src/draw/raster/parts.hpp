@@ -1,6 +1,13 @@
 /// Triangles and lines as what covers samples.
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "barycert/raster.hpp"
+#include "barycert/scene.hpp"
 #include "draw/raster/layers.hpp"
 
 namespace barycert::raster {

@@ -1,4 +1,15 @@
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "barycert/environment.hpp"
+#include "barycert/raster.hpp"
+#include "barycert/result.hpp"
+#include "barycert/scene.hpp"
+#include "barycert/weights.hpp"
 #include "core/base/finite.hpp"
 #include "core/base/strict_math.hpp"
 #include "draw/raster/colour_bytes.hpp"

@@ -1,7 +1,12 @@
 #include "draw/raster/resolve.hpp"
 
-#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "barycert/raster.hpp"
 
 namespace barycert::raster {
 namespace {

@@ -1,6 +1,9 @@
 /// Colours of samples to those of pixels.
 #pragma once
 
+#include <cstdint>
+#include <span>
+
 #include "barycert/raster.hpp"
 
 namespace barycert::raster {

@@ -1,12 +1,24 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <initializer_list>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "barycert/environment.hpp"
+#include "barycert/raster.hpp"
+#include "barycert/result.hpp"
 #include "barycert/scene.hpp"
+#include "barycert/weights.hpp"
 #include "core/base/text.hpp"
 #include "draw/raster/colour_bytes.hpp"
 #include "files/input_file.hpp"

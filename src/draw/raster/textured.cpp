@@ -1,10 +1,18 @@
 // Textured triangles: checked, and drawn band by band of the image, each band by one thread.
 #include "draw/raster/textured.hpp"
 
+#include <algorithm>
 #include <atomic>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
 
 #include "barycert/environment.hpp"
-#include "core/base/finite.hpp"
+#include "barycert/raster.hpp"
+#include "barycert/result.hpp"
 #include "core/base/lists.hpp"
 #include "draw/raster/edge.hpp"
 #include "mesh/threads/arena.hpp"

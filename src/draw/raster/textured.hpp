@@ -1,6 +1,10 @@
 /// Textured triangles: what is drawn, on what.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
 #include "barycert/raster.hpp"
 
 namespace barycert::raster {

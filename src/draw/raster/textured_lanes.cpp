@@ -9,8 +9,14 @@
 //                     each rounded once: off by less than 2^-21 of the largest of |U| along the row, divided, with
 //                     perspective, by (least of 1 / w) / (largest of 1 / w)
 // Nothing is fused, and the same is done on every target; only n differs.
+#include <algorithm>
 #include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
 #include <type_traits>
+#include "barycert/raster.hpp"
+#include "draw/raster/textured.hpp"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "draw/raster/textured_lanes.cpp"

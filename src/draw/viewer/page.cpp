@@ -1,9 +1,25 @@
 #include "draw/viewer/page.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
 #include <cstring>
+#include <new>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 #include "barycert/environment.hpp"
-#include "draw/figure_values.hpp"
+#include "barycert/figure.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/raster.hpp"
+#include "barycert/result.hpp"
+#include "barycert/surface.hpp"
+#include "draw/colour_map.hpp"
+#include "draw/picture.hpp"
 #include "draw/view.hpp"
 #include "files/deflate.hpp"
 #include "files/embedded.hpp"

@@ -1,7 +1,17 @@
 /// Meshes on pages, where people turn them, cut them by a plane, and ask them for cells, weights and values.
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
 #include "barycert/figure.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/raster.hpp"
+#include "barycert/result.hpp"
 #include "barycert/surface.hpp"
 
 namespace barycert::viewer {

@@ -1,18 +1,33 @@
+#include <string.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
+#include <cerrno>
 #include <chrono>
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
+#include "core/base/text.hpp"
 #include "files/child_process.hpp"
+#include "files/descriptor.hpp"
 #include "files/embedded.hpp"
+#include "files/input_file.hpp"
+#include "io/formats.hpp"
 #include "io/vtk/raw_grid.hpp"
+#include "mesh/cell_types.hpp"
 
 BARYCERT_EMBED(barycert_meshio_script, BARYCERT_MESHIO_SCRIPT);
 

@@ -2,11 +2,31 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <iterator>
 #include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
 
+#include "barycert/mesh.hpp"
+#include "barycert/point_files.hpp"
+#include "barycert/result.hpp"
+#include "barycert/table.hpp"
+#include "core/base/text.hpp"
+#include "files/input_file.hpp"
+#include "io/formats.hpp"
 #include "io/streams.hpp"
 #include "io/tetgen/scanner.hpp"
+#include "mesh/columns.hpp"
 
 namespace barycert::io {
 namespace {

@@ -1,15 +1,16 @@
 /// Layout of a CSV file, which its first line decides, and rows read by it. Errors are thrown as Exceptions.
 #pragma once
 
-#include "barycert/gmsh_files.hpp"
-#include "barycert/mesh_files.hpp"
-#include "barycert/plc_files.hpp"
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "barycert/mesh.hpp"
 #include "barycert/point_files.hpp"
-#include "barycert/series.hpp"
-#include "barycert/surface_files.hpp"
-#include "barycert/table_files.hpp"
-#include "barycert/tetgen_files.hpp"
-#include "barycert/vtk_files.hpp"
+#include "barycert/result.hpp"
 
 namespace barycert::io {
 

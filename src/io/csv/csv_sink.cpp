@@ -1,6 +1,18 @@
+#include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <concepts>
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
 
+#include "barycert/mesh.hpp"
+#include "barycert/simplex.hpp"
+#include "barycert/table.hpp"
+#include "barycert/table_files.hpp"
 #include "io/streams.hpp"
 
 namespace barycert::io {

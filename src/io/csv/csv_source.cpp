@@ -1,9 +1,24 @@
 // Points from CSV: lines are read by the megabyte, cut into pieces at line ends and parsed on all threads. Pieces are
 // looked at in their order, so points and errors do not depend on the number of threads.
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "barycert/mesh.hpp"
+#include "barycert/point_files.hpp"
+#include "barycert/result.hpp"
 #include "io/csv/csv_layout.hpp"
 #include "io/csv/line_reader.hpp"
+#include "io/formats.hpp"
+#include "io/parallel.hpp"
 #include "io/streams.hpp"
+#include "mesh/columns.hpp"
 
 namespace barycert::io {
 namespace {

@@ -3,9 +3,18 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
+#include <cerrno>
+#include <cstdint>
 #include <cstring>
+#include <string>
+#include <string_view>
+#include <utility>
 
+#include "barycert/result.hpp"
+#include "files/format.hpp"
+#include "files/input_file.hpp"
 #include "io/formats.hpp"
 
 namespace barycert::io {

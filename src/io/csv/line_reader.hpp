@@ -1,8 +1,13 @@
 /// Lines of a text file, pipe or the standard input, in bounded memory.
 #pragma once
 
+#include <cstddef>
 #include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
 
+#include "barycert/result.hpp"
 #include "files/descriptor.hpp"
 #include "files/input_file.hpp"
 

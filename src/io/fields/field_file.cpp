@@ -1,6 +1,21 @@
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "barycert/error_codes.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
 #include "core/base/nearest_name.hpp"
+#include "core/base/text.hpp"
+#include "files/format.hpp"
+#include "files/input_file.hpp"
 #include "io/csv/csv_layout.hpp"
 #include "io/csv/line_reader.hpp"
+#include "io/formats.hpp"
 #include "io/npy/npy.hpp"
 #include "io/streams.hpp"
 #include "io/words.hpp"

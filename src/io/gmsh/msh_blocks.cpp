@@ -11,8 +11,20 @@
 //
 // Parameters u, v, w of a node on its curve, surface or volume are passed over.
 
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <vector>
+
 #include "core/base/large_pages.hpp"
+#include "core/base/workers.hpp"
+#include "io/formats.hpp"
+#include "io/gmsh/msh_file.hpp"
 #include "io/gmsh/msh_parts.hpp"
+#include "io/tetgen/scanner.hpp"
 
 namespace barycert::io {
 namespace {

@@ -1,7 +1,25 @@
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <map>
 #include <numeric>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
+#include "core/base/large_pages.hpp"
+#include "core/base/text.hpp"
+#include "core/base/workers.hpp"
+#include "core/vtk_cell.hpp"
+#include "io/formats.hpp"
+#include "io/gmsh/msh_file.hpp"
 #include "io/gmsh/msh_parts.hpp"
-#include "io/parallel.hpp"
 #include "mesh/cell_types.hpp"
 #include "mesh/part.hpp"
 

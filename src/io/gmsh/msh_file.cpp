@@ -1,8 +1,23 @@
 #include "io/gmsh/msh_file.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <cstring>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
+#include "barycert/result.hpp"
+#include "core/base/text.hpp"
+#include "core/base/workers.hpp"
+#include "files/input_file.hpp"
+#include "io/formats.hpp"
 #include "io/number_word.hpp"
+#include "io/tetgen/scanner.hpp"
 #include "io/words.hpp"
 
 namespace barycert::io {

@@ -2,7 +2,20 @@
 /// Exceptions.
 #pragma once
 
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "barycert/error_codes.hpp"
 #include "core/base/workers.hpp"
+#include "files/input_file.hpp"
 #include "io/formats.hpp"
 #include "io/tetgen/scanner.hpp"
 #include "io/vtk/numbers.hpp"

@@ -1,6 +1,20 @@
 /// Contents of a .msh file of any version, in one form: nodes, elements in blocks, cells, groups, views.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "barycert/gmsh_files.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
+#include "core/vtk_cell.hpp"
 #include "io/gmsh/msh_file.hpp"
 #include "mesh/cell_types.hpp"
 

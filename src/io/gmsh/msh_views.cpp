@@ -1,9 +1,25 @@
 // A section has four parts. Strings: their count, then one a line: the name, perhaps an interpolation scheme. Reals:
 // their count, then these: the time. Integers: their count, then these: step, components, rows, perhaps a partition.
 // All this is text. Rows: tag value...
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <optional>
 #include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
+#include "core/base/text.hpp"
+#include "io/gmsh/msh_file.hpp"
 #include "io/gmsh/msh_parts.hpp"
+#include "io/tetgen/scanner.hpp"
 
 namespace barycert::io {
 namespace {

@@ -1,10 +1,25 @@
 // Groups of cells, what a file has beside the mesh, and the mesh as a whole.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <map>
 #include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
+#include "barycert/gmsh_files.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
+#include "core/base/text.hpp"
+#include "io/formats.hpp"
+#include "io/gmsh/msh_file.hpp"
 #include "io/gmsh/msh_parts.hpp"
 #include "io/vtk/raw_grid.hpp"
 #include "mesh/mid_edges.hpp"
-#include "mesh/pulling.hpp"
 
 namespace barycert {
 namespace io {

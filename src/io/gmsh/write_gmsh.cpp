@@ -1,9 +1,24 @@
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
+#include <map>
 #include <numeric>
+#include <optional>
 #include <set>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
+#include "barycert/environment.hpp"
+#include "barycert/gmsh_files.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
 #include "core/base/range.hpp"
+#include "core/base/text.hpp"
 #include "io/formats.hpp"
 #include "io/gmsh/msh_parts.hpp"
 #include "io/row_output.hpp"

@@ -1,14 +1,30 @@
-#include "barycert/map.hpp"
-
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
 
 #include "barycert/environment.hpp"
+#include "barycert/locator.hpp"
+#include "barycert/map.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
+#include "barycert/simplex.hpp"
+#include "barycert/surface.hpp"
+#include "barycert/table.hpp"
 #include "core/base/text.hpp"
 #include "core/shape_functions.hpp"
 #include "files/input_file.hpp"
 #include "files/output_file.hpp"
 #include "io/map/map_format.hpp"
-#include "mesh/pulling.hpp"
+#include "mesh/cell_types.hpp"
 
 namespace barycert {
 

@@ -1,10 +1,15 @@
 /// The parts of a map file that its writer and its reader share. See map.hpp.
 #pragma once
 
+#include <array>
 #include <bit>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
+#include <string_view>
 
+#include "barycert/mesh.hpp"
+#include "barycert/simplex.hpp"
 #include "barycert/table.hpp"
 #include "core/base/random.hpp"
 

@@ -11,12 +11,28 @@
 
 #include <strings.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
 #include <cstdlib>
-#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
+#include "barycert/error_codes.hpp"
+#include "barycert/result.hpp"
+#include "core/base/large_pages.hpp"
+#include "core/base/text.hpp"
 #include "core/vtk_cell.hpp"
+#include "files/input_file.hpp"
+#include "io/formats.hpp"
+#include "io/parallel.hpp"
 #include "io/tetgen/scanner.hpp"
-#include "io/vtk/raw_grid.hpp"
+#include "io/vtk/numbers.hpp"
+#include "io/words.hpp"
 
 namespace barycert::io::medit {
 

@@ -1,8 +1,28 @@
 // Meshes and fields of Medit's files.
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "barycert/mesh.hpp"
+#include "barycert/mesh_files.hpp"
+#include "barycert/result.hpp"
 #include "core/base/finite.hpp"
+#include "core/base/large_pages.hpp"
+#include "core/base/text.hpp"
+#include "io/formats.hpp"
 #include "io/medit/medit_file.hpp"
+#include "io/vtk/raw_grid.hpp"
+#include "mesh/cell_types.hpp"
 #include "mesh/mid_edges.hpp"
-#include "mesh/pulling.hpp"
 
 namespace barycert::io::medit {
 namespace {

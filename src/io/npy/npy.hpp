@@ -2,7 +2,17 @@
 /// numpy.org/doc/stable/reference/generated/numpy.lib.format.html. Errors are thrown as Exceptions.
 #pragma once
 
-#include "io/formats.hpp"
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "barycert/mesh.hpp"
+#include "files/input_file.hpp"
 
 namespace barycert::io {
 

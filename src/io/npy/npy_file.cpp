@@ -1,5 +1,22 @@
 // The rows of an NPY file.
 
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
+#include "core/base/text.hpp"
+#include "files/input_file.hpp"
+#include "io/formats.hpp"
 #include "io/npy/npy.hpp"
 #include "io/streams.hpp"
 #include "io/vtk/numbers.hpp"

@@ -1,7 +1,24 @@
 // The header of an NPY file: a dictionary as Python writes it.
 
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <charconv>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "barycert/error_codes.hpp"
+#include "core/base/text.hpp"
+#include "files/input_file.hpp"
+#include "io/formats.hpp"
 #include "io/npy/npy.hpp"
-#include "io/streams.hpp"
 
 namespace barycert::io {
 

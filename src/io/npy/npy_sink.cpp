@@ -1,11 +1,28 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <bit>
+#include <cstddef>
+#include <cstdint>
 #include <cstring>
+#include <memory>
 #include <set>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
 
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
+#include "barycert/simplex.hpp"
+#include "barycert/table.hpp"
+#include "barycert/table_files.hpp"
+#include "core/base/text.hpp"
+#include "io/formats.hpp"
 #include "io/npy/npy.hpp"
 #include "io/streams.hpp"
+#include "mesh/columns.hpp"
 
 namespace barycert::io {
 namespace {

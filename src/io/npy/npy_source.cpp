@@ -1,7 +1,24 @@
 // Points from an NPY file.
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "barycert/mesh.hpp"
+#include "barycert/point_files.hpp"
+#include "barycert/result.hpp"
+#include "barycert/table.hpp"
 #include "core/base/finite.hpp"
+#include "core/base/text.hpp"
+#include "io/formats.hpp"
 #include "io/npy/npy.hpp"
+#include "io/parallel.hpp"
 #include "io/streams.hpp"
 
 namespace barycert::io {

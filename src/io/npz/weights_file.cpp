@@ -3,8 +3,22 @@
 
 #include <libdeflate.h>
 #include <zlib.h>
-#include <bit>
 
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
 #include "files/output_file.hpp"
 #include "files/spool.hpp"
 #include "io/npy/npy.hpp"

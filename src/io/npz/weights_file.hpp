@@ -1,9 +1,13 @@
 /// Weights of points as a sparse matrix in an NPZ file, which scipy.sparse.load_npz reads.
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <span>
+#include <string>
 
 #include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
 
 namespace barycert::io {
 

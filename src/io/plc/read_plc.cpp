@@ -1,6 +1,19 @@
 // PLCs from their files; TetGen's .poly and .smesh, with their nodes inside or in STEM.node.
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
+#include "barycert/environment.hpp"
+#include "barycert/plc.hpp"
+#include "barycert/result.hpp"
+#include "core/base/text.hpp"
+#include "files/format.hpp"
+#include "io/formats.hpp"
 #include "io/polygons/polygons.hpp"
 
 namespace barycert::io {

@@ -1,6 +1,16 @@
 // OFF (Geomview) and OBJ (Wavefront).
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
 
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
+#include "core/base/text.hpp"
 #include "io/number_word.hpp"
 #include "io/polygons/polygons.hpp"
 

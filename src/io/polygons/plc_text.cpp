@@ -1,5 +1,19 @@
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
 
+#include "barycert/error_codes.hpp"
+#include "barycert/result.hpp"
+#include "files/format.hpp"
+#include "files/input_file.hpp"
+#include "io/formats.hpp"
 #include "io/number_word.hpp"
 #include "io/polygons/polygons.hpp"
 #include "io/tetgen/scanner.hpp"

@@ -1,8 +1,21 @@
 // PLY, text and binary: G. Turk, "The PLY Polygon File Format", 1994.
+#include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
 
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
+#include "core/base/text.hpp"
 #include "io/polygons/polygons.hpp"
 #include "io/vtk/numbers.hpp"
+#include "io/words.hpp"
 
 namespace barycert::io {
 namespace {

@@ -1,4 +1,12 @@
 // Polygons from their files, by the ends of their names.
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "files/format.hpp"
+#include "io/formats.hpp"
 #include "io/polygons/polygons.hpp"
 
 namespace barycert::io {
@@ -15,7 +23,7 @@ Polygons read_polygons(const std::string& path) {
         return kind == FormatKind::off   ? read_off(in)
                : kind == FormatKind::obj ? read_obj(in)
                : kind == FormatKind::stl ? read_stl(in)
-                                          : read_ply(in);
+                                         : read_ply(in);
     };
     const Separators separators = kind == FormatKind::stl ? Separators::blanks_alone : Separators::blanks;
     const std::string text = read_surface_text(path, separators, read);

@@ -1,7 +1,17 @@
 /// Polygons of .off .stl .ply .obj; the words of such files, of .poly and .smesh. Errors are thrown as Exceptions.
 #pragma once
 
-#include "io/formats.hpp"
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "barycert/error_codes.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
+#include "barycert/surface.hpp"
 
 namespace barycert::io {
 

@@ -1,9 +1,25 @@
 // STL, text and binary (3D Systems, 1989).
+#include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
+#include "core/base/text.hpp"
+#include "io/formats.hpp"
 #include "io/number_word.hpp"
 #include "io/polygons/polygons.hpp"
 #include "io/vtk/numbers.hpp"
+#include "io/words.hpp"
 
 namespace barycert::io {
 namespace {

@@ -1,5 +1,25 @@
 #include "io/polygons/triangles.hpp"
 
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "barycert/mesh.hpp"
+#include "barycert/mesh_files.hpp"
+#include "barycert/plc.hpp"
+#include "barycert/plc_files.hpp"
+#include "barycert/result.hpp"
+#include "barycert/surface.hpp"
+#include "barycert/surface_files.hpp"
+#include "core/base/text.hpp"
+#include "files/format.hpp"
+#include "io/formats.hpp"
+#include "io/polygons/polygons.hpp"
+#include "mesh/facets/facet_triangles.hpp"
+#include "mesh/facets/plc_triangles.hpp"
 #include "mesh/part.hpp"
 
 namespace barycert::io {

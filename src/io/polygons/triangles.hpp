@@ -1,8 +1,13 @@
 /// Surfaces of polygons and PLCs.
 #pragma once
 
+#include <string>
+
+#include "barycert/mesh.hpp"
+#include "barycert/plc.hpp"
+#include "barycert/surface.hpp"
+#include "io/formats.hpp"
 #include "io/polygons/polygons.hpp"
-#include "mesh/facets/plc_triangles.hpp"
 
 namespace barycert::io {
 

@@ -1,8 +1,25 @@
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <iterator>
 #include <set>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "barycert/environment.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
+#include "barycert/surface.hpp"
+#include "barycert/table.hpp"
 #include "core/base/finite.hpp"
+#include "files/format.hpp"
 #include "io/formats.hpp"
 #include "io/row_output.hpp"
+#include "io/vtk/numbers.hpp"
 #include "io/vtk/out_file.hpp"
 
 namespace barycert {

@@ -1,3 +1,17 @@
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "barycert/error_codes.hpp"
+#include "barycert/result.hpp"
+#include "core/base/text.hpp"
+#include "files/input_file.hpp"
+#include "io/formats.hpp"
+#include "io/tetgen/scanner.hpp"
 #include "io/tetgen/text_table.hpp"
 #include "io/words.hpp"
 

@@ -11,6 +11,8 @@
 ///             file is refused, for "0.2" may be the beginning of "0.25".
 #pragma once
 
+#include <fast_float/fast_float.h>
+
 #include <array>
 #include <bit>
 #include <charconv>
@@ -22,7 +24,6 @@
 #include <string_view>
 #include <system_error>
 
-#include <fast_float/fast_float.h>
 #ifdef __SSE2__
 #include <emmintrin.h>
 #endif

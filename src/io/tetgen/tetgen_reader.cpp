@@ -12,11 +12,31 @@
 // without gaps. A row has as many columns as the header tells, and the file as many rows.
 //
 // Where TetGen would accept and misread, this reader refuses: see row_errors.cpp.
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <initializer_list>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
+#include "barycert/error_codes.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/mesh_files.hpp"
+#include "barycert/point_files.hpp"
+#include "barycert/result.hpp"
+#include "barycert/table.hpp"
+#include "core/base/text.hpp"
+#include "files/suffix.hpp"
+#include "io/formats.hpp"
 #include "io/streams.hpp"
+#include "io/tetgen/scanner.hpp"
 #include "io/tetgen/text_table.hpp"
 #include "mesh/mid_edges.hpp"
+#include "mesh/threads/arena.hpp"
 
 namespace barycert {
 namespace io {

@@ -1,7 +1,25 @@
 #include "io/tetgen/text_table.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
+#include "core/base/text.hpp"
 #include "core/base/workers.hpp"
+#include "files/format.hpp"
+#include "files/input_file.hpp"
+#include "io/formats.hpp"
 #include "io/parallel.hpp"
+#include "io/tetgen/scanner.hpp"
 
 namespace barycert::io {
 namespace {

@@ -8,6 +8,16 @@
 /// read_guarded() makes a Result.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "barycert/error_codes.hpp"
+#include "barycert/mesh.hpp"
+#include "files/input_file.hpp"
 #include "io/formats.hpp"
 #include "io/tetgen/scanner.hpp"
 

@@ -1,6 +1,18 @@
 /// VTK's VTI files (XML, image data): arrays at the points of a regular grid, written block by block, without VTK.
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "barycert/result.hpp"
+#include "barycert/table.hpp"
 #include "files/output_file.hpp"
 #include "files/spool.hpp"
 #include "io/vtk/out_file.hpp"

@@ -1,6 +1,19 @@
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
 #include "barycert/environment.hpp"
+#include "barycert/result.hpp"
+#include "barycert/table.hpp"
 #include "core/base/text.hpp"
+#include "files/spool.hpp"
 #include "io/vti/vti.hpp"
+#include "io/vtk/numbers.hpp"
+#include "io/vtk/out_file.hpp"
 
 namespace barycert::io {
 namespace {

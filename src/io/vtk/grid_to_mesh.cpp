@@ -1,9 +1,28 @@
-#include "io/vtk/raw_grid.hpp"
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <map>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "barycert/error_codes.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
 #include "core/base/finite.hpp"
+#include "core/base/large_pages.hpp"
+#include "core/base/text.hpp"
+#include "core/vtk_cell.hpp"
+#include "io/formats.hpp"
+#include "io/parallel.hpp"
+#include "io/vtk/numbers.hpp"
+#include "io/vtk/raw_grid.hpp"
+#include "mesh/cell_types.hpp"
 #include "mesh/consistency.hpp"
 #include "mesh/facets/facet_triangles.hpp"
-#include "mesh/pulling.hpp"
 
 namespace barycert::io {
 namespace {

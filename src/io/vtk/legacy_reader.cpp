@@ -1,6 +1,24 @@
 // VTK's legacy files: sections made of their words and numbers.
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/base/large_pages.hpp"
+#include "core/vtk_cell.hpp"
+#include "io/formats.hpp"
+#include "io/number_word.hpp"
+#include "io/parallel.hpp"
 #include "io/vtk/legacy_text.hpp"
+#include "io/vtk/numbers.hpp"
 #include "io/vtk/raw_grid.hpp"
 
 namespace barycert::io {

@@ -1,11 +1,24 @@
 /// Words and numbers of VTK's legacy files.
 #pragma once
 
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
-#include "io/number_word.hpp"
+#include "barycert/error_codes.hpp"
+#include "barycert/result.hpp"
+#include "files/input_file.hpp"
+#include "io/formats.hpp"
+#include "io/vtk/numbers.hpp"
 #include "io/vtk/raw_grid.hpp"
+#include "io/words.hpp"
 
 namespace barycert::io {
 

@@ -1,7 +1,33 @@
 // Meshes as VTK's files, in XML and in the legacy format, and rows as points of an unstructured grid.
 
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <new>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "barycert/environment.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
+#include "barycert/table.hpp"
+#include "barycert/table_files.hpp"
+#include "core/vtk_cell.hpp"
+#include "files/format.hpp"
 #include "files/output_file.hpp"
 #include "files/spool.hpp"
+#include "io/formats.hpp"
+#include "io/vtk/numbers.hpp"
 #include "io/vtk/out_file.hpp"
 #include "io/vtk/raw_grid.hpp"
 #include "mesh/consistency.hpp"

@@ -2,9 +2,25 @@
 
 #include <fast_float/fast_float.h>
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <variant>
+#include <vector>
+
+#include "core/base/text.hpp"
 #include "io/formats.hpp"
 #include "io/number_word.hpp"
 #include "io/parallel.hpp"
+#include "io/words.hpp"
 
 namespace barycert::io {
 namespace {

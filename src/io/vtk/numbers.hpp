@@ -18,8 +18,6 @@
 #include <variant>
 #include <vector>
 
-#include "io/words.hpp"
-
 namespace barycert::io {
 
 enum class NumberType : std::uint8_t {

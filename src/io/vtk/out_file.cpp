@@ -1,11 +1,27 @@
 #include "io/vtk/out_file.hpp"
 
+#include <algorithm>
+#include <bit>
 #include <charconv>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <functional>
+#include <optional>
 #include <set>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
+#include "barycert/error_codes.hpp"
+#include "barycert/result.hpp"
+#include "barycert/table.hpp"
 #include "core/base/text.hpp"
 #include "files/output_file.hpp"
 #include "io/parallel.hpp"
+#include "io/vtk/numbers.hpp"
 #include "io/vtk/packed.hpp"
 
 namespace barycert::io {

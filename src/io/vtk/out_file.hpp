@@ -1,15 +1,23 @@
 /// VTK's files on their way out: arrays whose numbers stand in memory, or are made some at a time; files of them.
 #pragma once
 
-#include "barycert/gmsh_files.hpp"
-#include "barycert/mesh_files.hpp"
-#include "barycert/plc_files.hpp"
-#include "barycert/point_files.hpp"
-#include "barycert/series.hpp"
-#include "barycert/surface_files.hpp"
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "barycert/error_codes.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
+#include "barycert/table.hpp"
 #include "barycert/table_files.hpp"
-#include "barycert/tetgen_files.hpp"
-#include "barycert/vtk_files.hpp"
 #include "io/vtk/numbers.hpp"
 
 namespace barycert::io {

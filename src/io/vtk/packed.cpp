@@ -5,10 +5,17 @@
 #include <lzma.h>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <new>
+#include <string>
+#include <string_view>
+#include <utility>
 
+#include "barycert/table.hpp"
 #include "files/deflate.hpp"
 
 namespace barycert::io {

@@ -1,6 +1,12 @@
 /// Blocks of bytes, compressed.
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
 #include "barycert/table.hpp"
 
 namespace barycert::io {

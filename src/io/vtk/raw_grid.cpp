@@ -1,9 +1,28 @@
 #include "io/vtk/raw_grid.hpp"
-#include "io/tetgen/scanner.hpp"
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <functional>
+#include <iterator>
+#include <optional>
+#include <span>
+#include <string>
+#include <type_traits>
 #include <unordered_map>
+#include <utility>
+#include <variant>
+#include <vector>
 
+#include "barycert/result.hpp"
 #include "core/base/random.hpp"
+#include "core/vtk_cell.hpp"
+#include "io/formats.hpp"
+#include "io/parallel.hpp"
+#include "io/tetgen/scanner.hpp"
+#include "io/vtk/numbers.hpp"
+#include "mesh/part.hpp"
 
 namespace barycert::io {
 

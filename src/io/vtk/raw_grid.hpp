@@ -2,13 +2,26 @@
 /// Errors are thrown as Exceptions.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <iterator>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
 
+#include "barycert/error_codes.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
 #include "io/formats.hpp"
 #include "io/parallel.hpp"
 #include "io/vtk/numbers.hpp"
 #include "mesh/cell_types.hpp"
-#include "mesh/part.hpp"
 
 namespace barycert::io {
 

@@ -1,11 +1,38 @@
 // VTK's files of every kind, those that name files among them: partitioned data sets, blocks and series.
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
+#include <span>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
 
+#include "barycert/error_codes.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/mesh_files.hpp"
+#include "barycert/result.hpp"
+#include "barycert/series.hpp"
+#include "barycert/table.hpp"
+#include "barycert/vtk_files.hpp"
+#include "core/base/text.hpp"
+#include "files/format.hpp"
+#include "files/input_file.hpp"
+#include "io/formats.hpp"
 #include "io/number_word.hpp"
 #include "io/streams.hpp"
+#include "io/vtk/numbers.hpp"
+#include "io/vtk/raw_grid.hpp"
 #include "io/vtk/xml.hpp"
+#include "io/words.hpp"
+#include "mesh/threads/arena.hpp"
 
 namespace barycert::io {
 namespace {
@@ -385,7 +412,8 @@ std::vector<std::string> vtk_mesh_files(const std::string& path) {
 
 Result<io::PointTable> io::read_vtk_table(const std::string& path, bool arrays, NonfinitePoints nonfinite) {
     // A legacy file has no list of its arrays.
-    return read_table(path, 3, arrays || base::kind_of(path) == FormatKind::vtk, nullptr, true, nonfinite == NonfinitePoints::error);
+    return read_table(path, 3, arrays || base::kind_of(path) == FormatKind::vtk, nullptr, true,
+                      nonfinite == NonfinitePoints::error);
 }
 
 Result<Mesh> io::read_vtk_in_space(const std::string& path, const ReadOptions& options, InSpace* space) {

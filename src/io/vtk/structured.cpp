@@ -1,3 +1,17 @@
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/base/large_pages.hpp"
+#include "core/vtk_cell.hpp"
+#include "io/formats.hpp"
+#include "io/parallel.hpp"
 #include "io/vtk/raw_grid.hpp"
 
 namespace barycert::io {

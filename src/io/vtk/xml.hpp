@@ -1,7 +1,18 @@
 /// VTK's XML files: elements (through expat), numbers in them, the data sets that they are. Errors are Exceptions.
 #pragma once
 
-#include "io/vtk/packed.hpp"
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "barycert/error_codes.hpp"
+#include "barycert/table.hpp"
+#include "io/vtk/numbers.hpp"
 #include "io/vtk/raw_grid.hpp"
 
 namespace barycert::io {

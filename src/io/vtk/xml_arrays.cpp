@@ -1,4 +1,27 @@
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "barycert/table.hpp"
+#include "core/base/text.hpp"
+#include "io/parallel.hpp"
+#include "io/vtk/numbers.hpp"
+#include "io/vtk/packed.hpp"
+#include "io/vtk/raw_grid.hpp"
 #include "io/vtk/xml.hpp"
+#include "io/words.hpp"
 
 namespace barycert::io {
 namespace {

@@ -1,7 +1,24 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <iterator>
+#include <optional>
 #include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
+#include "core/vtk_cell.hpp"
+#include "io/formats.hpp"
 #include "io/number_word.hpp"
+#include "io/vtk/numbers.hpp"
+#include "io/vtk/raw_grid.hpp"
 #include "io/vtk/xml.hpp"
+#include "io/words.hpp"
 
 namespace barycert::io {
 namespace {

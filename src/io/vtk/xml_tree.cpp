@@ -1,6 +1,16 @@
-#include "io/vtk/xml.hpp"
-
 #include <expat.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <new>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "io/vtk/raw_grid.hpp"
+#include "io/vtk/xml.hpp"
 
 namespace barycert::io {
 namespace {

@@ -1,3 +1,12 @@
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "barycert/check_results.hpp"
+#include "barycert/defect.hpp"
+#include "barycert/mesh.hpp"
 #include "core/base/disjoint_sets.hpp"
 #include "core/base/lists.hpp"
 #include "mesh/check/stages.hpp"

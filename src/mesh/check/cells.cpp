@@ -1,10 +1,23 @@
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <numbers>
+#include <span>
+#include <vector>
 
+#include "barycert/defect.hpp"
+#include "barycert/measures.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/simplex.hpp"
 #include "barycert/weights.hpp"
+#include "core/base/large_pages.hpp"
 #include "core/base/strict_math.hpp"
 #include "core/base/vectors.hpp"
 #include "mesh/check/stages.hpp"
+#include "mesh/index/exact_volumes.hpp"
+#include "mesh/index/facet_contact.hpp"
 #include "mesh/pulling.hpp"
 
 namespace barycert::check {

@@ -1,10 +1,25 @@
+#include "barycert/check.hpp"
+
 #include <tbb/task_group.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <utility>
+#include <vector>
 
+#include "barycert/certificate.hpp"
+#include "barycert/check_results.hpp"
+#include "barycert/defect.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/not_finite.hpp"
 #include "core/base/disjoint_sets.hpp"
 #include "mesh/check/stages.hpp"
 #include "mesh/consistency.hpp"
+#include "mesh/threads/arena.hpp"
 
 namespace barycert {
 

@@ -1,9 +1,22 @@
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "barycert/check_results.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/predicates.hpp"
+#include "barycert/simplex.hpp"
+#include "barycert/surface.hpp"
 #include "core/base/vectors.hpp"
+#include "core/scaled_double.hpp"
 #include "core/whole_points.hpp"
+#include "mesh/check/stages.hpp"
 #include "mesh/check/surface/parts.hpp"
+#include "mesh/index/overlap.hpp"
 
 namespace barycert::check {
 namespace {

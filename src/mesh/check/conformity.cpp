@@ -11,10 +11,23 @@
 //                  to 2^-30. How far the farthest node is off the plane is measured;
 // else it is violated. The share of it that is covered is then the area of what faces close to its plane, wherever
 // their centroids lie, have in common with it. Facets without area (single segments) are left out.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <iterator>
+#include <span>
+#include <utility>
+#include <vector>
 
+#include "barycert/check_results.hpp"
+#include "barycert/plc.hpp"
 #include "mesh/adjacency.hpp"
 #include "mesh/check/plc_facet.hpp"
+#include "mesh/check/stages.hpp"
+#include "mesh/index/box_tree.hpp"
+#include "mesh/index/exact_volumes.hpp"
 
 namespace barycert::check {
 namespace {

@@ -1,4 +1,19 @@
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "barycert/defect.hpp"
+#include "barycert/mesh.hpp"
+#include "core/base/disjoint_sets.hpp"
+#include "mesh/check/stages.hpp"
 #include "mesh/check/surface/parts.hpp"
+#include "mesh/index/ridges.hpp"
 
 namespace barycert::check {
 namespace {

@@ -1,5 +1,11 @@
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 
+#include "barycert/check_results.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/predicates.hpp"
 #include "core/base/strict_math.hpp"
 #include "core/base/vectors.hpp"
 #include "mesh/check/stages.hpp"

@@ -1,10 +1,27 @@
 #include <tbb/parallel_sort.h>
 
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "barycert/defect.hpp"
+#include "barycert/mesh.hpp"
+#include "core/base/large_pages.hpp"
 #include "core/base/lists.hpp"
 #include "mesh/adjacency.hpp"
 #include "mesh/check/stages.hpp"
 #include "mesh/consistency.hpp"
+#include "mesh/index/cell_index.hpp"
+#include "mesh/index/cell_tree.hpp"
+#include "mesh/index/facet_links.hpp"
 #include "mesh/index/proof.hpp"
+#include "mesh/threads/arena.hpp"
 
 namespace barycert::check {
 namespace {

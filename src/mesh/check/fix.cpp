@@ -1,5 +1,19 @@
-#include <cmath>
+#include "barycert/fix.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "barycert/defect.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
 #include "core/base/disjoint_sets.hpp"
 #include "core/base/text.hpp"
 #include "mesh/adjacency.hpp"
@@ -9,6 +23,7 @@
 #include "mesh/mid_edges.hpp"
 #include "mesh/part.hpp"
 #include "mesh/pulling.hpp"
+#include "mesh/threads/arena.hpp"
 
 namespace barycert {
 namespace {

@@ -1,6 +1,17 @@
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
 
+#include "barycert/mesh.hpp"
 #include "mesh/check/stages.hpp"
+#include "mesh/index/box_tree.hpp"
+#include "mesh/index/exact_volumes.hpp"
+#include "mesh/index/facet_contact.hpp"
 
 namespace barycert::check {
 namespace {

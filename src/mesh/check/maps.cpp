@@ -1,12 +1,24 @@
 // The isoparametric maps of cells: where their Jacobians are positive, or not, and whether they agree at facets.
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
 
+#include "barycert/check_results.hpp"
+#include "barycert/mesh.hpp"
+#include "core/isoparametric/inverse.hpp"
+#include "core/shape_functions.hpp"
 #include "core/vtk_cell.hpp"
-#include "mesh/index/cell_maps.hpp"
 #include "mesh/check/stages.hpp"
 #include "mesh/consistency.hpp"
-#include "mesh/pulling.hpp"
+#include "mesh/index/cell_maps.hpp"
 #include "mesh/index/warped_sides.hpp"
+#include "mesh/pulling.hpp"
+#include "mesh/threads/arena.hpp"
 
 namespace barycert::check {
 namespace {

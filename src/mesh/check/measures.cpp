@@ -1,19 +1,17 @@
-#include <algorithm>
-#include <bit>
-#include <cmath>
-#include <tuple>
-
-#include "barycert/certificate.hpp"
-#include "barycert/check.hpp"
-#include "barycert/check_results.hpp"
-#include "barycert/defect.hpp"
-#include "barycert/environment.hpp"
-#include "barycert/fix.hpp"
 #include "barycert/measures.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "barycert/environment.hpp"
+#include "barycert/mesh.hpp"
 #include "barycert/not_finite.hpp"
-#include "barycert/plc.hpp"
-#include "barycert/surface.hpp"
-#include "barycert/surface_report.hpp"
 #include "core/base/finite.hpp"
 
 namespace barycert {

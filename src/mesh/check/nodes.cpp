@@ -1,8 +1,19 @@
 #include <tbb/parallel_sort.h>
 
+#include <algorithm>
+#include <array>
+#include <atomic>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <utility>
+#include <vector>
 
+#include "barycert/defect.hpp"
+#include "barycert/mesh.hpp"
 #include "mesh/check/stages.hpp"
+#include "mesh/index/box_tree.hpp"
 
 namespace barycert::check {
 namespace {

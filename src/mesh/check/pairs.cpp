@@ -1,8 +1,23 @@
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <set>
+#include <span>
 #include <tuple>
+#include <variant>
+#include <vector>
 
+#include "barycert/defect.hpp"
+#include "barycert/mesh.hpp"
 #include "mesh/check/stages.hpp"
+#include "mesh/index/box_tree.hpp"
+#include "mesh/index/candidates.hpp"
+#include "mesh/index/facet_contact.hpp"
 #include "mesh/index/open_sheets.hpp"
+#include "mesh/index/overlap.hpp"
 
 namespace barycert::check {
 namespace {

@@ -1,11 +1,19 @@
 /// A facet of a PLC as a region of its plane.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
 
+#include "barycert/mesh.hpp"
+#include "barycert/plc.hpp"
+#include "barycert/predicates.hpp"
 #include "core/base/vectors.hpp"
-#include "mesh/check/stages.hpp"
 #include "mesh/facets/facet_triangles.hpp"
+#include "mesh/index/box_tree.hpp"
 
 namespace barycert::check {
 

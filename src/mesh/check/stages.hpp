@@ -1,24 +1,28 @@
 /// The stages of a check, in their order. Each reads what those before it have found of the mesh, and adds to it.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include "barycert/certificate.hpp"
 #include "barycert/check.hpp"
 #include "barycert/check_results.hpp"
 #include "barycert/defect.hpp"
 #include "barycert/environment.hpp"
-#include "barycert/fix.hpp"
 #include "barycert/measures.hpp"
-#include "barycert/not_finite.hpp"
-#include "barycert/plc.hpp"
+#include "barycert/mesh.hpp"
 #include "barycert/predicates.hpp"
-#include "barycert/surface.hpp"
-#include "barycert/surface_report.hpp"
+#include "core/integer.hpp"
 #include "mesh/index/box_tree.hpp"
 #include "mesh/index/exact_volumes.hpp"
 #include "mesh/index/facet_contact.hpp"
-#include "mesh/index/overlap.hpp"
 #include "mesh/threads/arena.hpp"
 
 namespace barycert::check {

@@ -1,13 +1,20 @@
 #include "mesh/facets/facet_triangles.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <deque>
+#include <span>
 #include <unordered_map>
 #include <unordered_set>
+#include <utility>
+#include <vector>
 
+#include "barycert/mesh.hpp"
 #include "barycert/predicates.hpp"
 #include "core/base/vectors.hpp"
+#include "mesh/cell_types.hpp"
 
 namespace barycert::surface {
 namespace {

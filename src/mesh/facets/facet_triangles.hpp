@@ -2,8 +2,12 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <span>
+#include <vector>
 
+#include "barycert/mesh.hpp"
 #include "mesh/cell_types.hpp"
 
 namespace barycert::surface {

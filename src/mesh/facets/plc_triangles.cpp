@@ -1,6 +1,12 @@
 #include "mesh/facets/plc_triangles.hpp"
 
 #include <algorithm>
+#include <cstddef>
+
+#include "barycert/mesh.hpp"
+#include "barycert/plc.hpp"
+#include "barycert/surface.hpp"
+#include "mesh/facets/facet_triangles.hpp"
 
 namespace barycert::surface {
 

@@ -1,6 +1,11 @@
 #include "mesh/index/bins.hpp"
 
+#include <algorithm>
+#include <array>
 #include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
 
 namespace barycert::index {
 

@@ -2,8 +2,13 @@
 
 #include <tbb/parallel_invoke.h>
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <numeric>
 #include <utility>
+#include <vector>
 
 #include "mesh/threads/arena.hpp"
 

@@ -1,10 +1,20 @@
 #include "mesh/index/candidates.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <map>
+#include <optional>
+#include <span>
 #include <unordered_map>
+#include <utility>
+#include <vector>
 
+#include "barycert/mesh.hpp"
 #include "core/base/vectors.hpp"
+#include "mesh/index/box_tree.hpp"
 
 namespace barycert::index {
 namespace {

@@ -11,7 +11,14 @@
 /// the node (3D): of n blades that are a stretch each, some n^2 / 100 pairs are named.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "barycert/mesh.hpp"
 #include "mesh/index/box_tree.hpp"

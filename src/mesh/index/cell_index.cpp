@@ -1,9 +1,20 @@
 #include "mesh/index/cell_index.hpp"
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <numeric>
+#include <span>
+#include <utility>
+#include <vector>
 
+#include "barycert/mesh.hpp"
+#include "barycert/simplex.hpp"
+#include "mesh/index/bins.hpp"
 #include "mesh/threads/arena.hpp"
 
 namespace barycert::index {

@@ -1,7 +1,14 @@
 /// The cells of a mesh in the order of a space-filling curve, ready to be walked through.
 #pragma once
 
+#include <array>
 #include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <new>
+#include <span>
+#include <vector>
 
 #include "barycert/mesh.hpp"
 #include "barycert/simplex.hpp"

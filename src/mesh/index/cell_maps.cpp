@@ -1,7 +1,16 @@
 #include "mesh/index/cell_maps.hpp"
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+
+#include "barycert/mesh.hpp"
+#include "core/isoparametric/inverse.hpp"
+#include "core/shape_functions.hpp"
+#include "mesh/cell_types.hpp"
 #include "mesh/mid_edges.hpp"
-#include "mesh/pulling.hpp"
 
 namespace barycert::mesh {
 

@@ -1,8 +1,15 @@
 /// Which cells are images of reference cells, and by which nodes.
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
 #include "barycert/mesh.hpp"
 #include "core/isoparametric/inverse.hpp"
+#include "core/shape_functions.hpp"
 
 namespace barycert::mesh {
 

@@ -1,5 +1,13 @@
 #include "mesh/index/cell_tree.hpp"
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "mesh/index/cell_index.hpp"
+#include "mesh/threads/arena.hpp"
+
 namespace barycert::index {
 
 CellBox box_of(const CellIndex& index, const double* const* points, std::size_t count) {

@@ -1,9 +1,16 @@
 /// Boxes in a tree of groups of eight, to find every cell that may hold a point.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <bit>
+#include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <span>
+#include <vector>
 
+#include "mesh/index/bins.hpp"
 #include "mesh/index/cell_index.hpp"
 #include "mesh/index/facet_contact.hpp"
 #include "mesh/threads/arena.hpp"

@@ -1,6 +1,8 @@
 /// How a ray crosses a triangle in space, exactly, for winding numbers.
 #pragma once
 
+#include <array>
+
 #include "barycert/predicates.hpp"
 
 namespace barycert::index {

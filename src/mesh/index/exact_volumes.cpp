@@ -1,8 +1,15 @@
 #include "mesh/index/exact_volumes.hpp"
 
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
 
+#include "core/integer.hpp"
 #include "core/numerators-inl.hpp"
+#include "core/scaled_double.hpp"
 
 namespace barycert::index {
 namespace {

@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "core/integer.hpp"
 #include "core/scaled_double.hpp"
 
 namespace barycert::index {

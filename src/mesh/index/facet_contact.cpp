@@ -1,8 +1,11 @@
 #include "mesh/index/facet_contact.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 
+#include "barycert/mesh.hpp"
 #include "barycert/predicates.hpp"
 
 namespace barycert::index {

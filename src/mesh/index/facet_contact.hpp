@@ -1,6 +1,10 @@
 /// Do two boundary facets meet where they must not? Exactly, by signs of orientations alone.
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <span>
+
 #include "barycert/mesh.hpp"
 
 namespace barycert::index {

@@ -3,8 +3,16 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_sort.h>
 
+#include <algorithm>
+#include <array>
 #include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
 
+#include "mesh/index/cell_index.hpp"
 #include "mesh/threads/arena.hpp"
 
 namespace barycert::index {

@@ -1,6 +1,10 @@
 /// Cells linked over their facets, and what that leaves open.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
 #include "mesh/index/cell_index.hpp"
 
 namespace barycert::index {

@@ -1,5 +1,14 @@
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
 #include "barycert/predicates.hpp"
+#include "barycert/simplex.hpp"
+#include "mesh/index/cell_index.hpp"
 #include "mesh/index/cell_tree.hpp"
+#include "mesh/index/facet_contact.hpp"
 #include "mesh/index/facet_links.hpp"
 
 #undef HWY_TARGET_INCLUDE

@@ -1,9 +1,22 @@
 #include "mesh/index/open_sheets.hpp"
 
+#include <algorithm>
 #include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
 
+#include "barycert/predicates.hpp"
 #include "core/base/disjoint_sets.hpp"
-#include "mesh/index/overlap.hpp"
+#include "mesh/index/candidates.hpp"
+#include "mesh/index/cell_index.hpp"
+#include "mesh/index/cell_tree.hpp"
+#include "mesh/index/facet_contact.hpp"
+#include "mesh/index/facet_links.hpp"
+#include "mesh/index/ridges.hpp"
 
 namespace barycert::index {
 namespace {

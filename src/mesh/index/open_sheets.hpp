@@ -1,8 +1,14 @@
 /// Open facets, as places in space: which conflict, which belong to one sheet (doc/theorem.md).
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
 #include "barycert/predicates.hpp"
 #include "mesh/index/candidates.hpp"
+#include "mesh/index/cell_index.hpp"
 #include "mesh/index/facet_contact.hpp"
 #include "mesh/index/facet_links.hpp"
 #include "mesh/index/ridges.hpp"

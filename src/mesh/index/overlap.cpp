@@ -1,8 +1,19 @@
 #include "mesh/index/overlap.hpp"
 
+#include <algorithm>
+#include <array>
 #include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
 
 #include "barycert/predicates.hpp"
+#include "mesh/index/candidates.hpp"
+#include "mesh/index/cell_index.hpp"
+#include "mesh/index/cell_tree.hpp"
+#include "mesh/threads/arena.hpp"
 
 namespace barycert::index {
 namespace {

@@ -1,7 +1,15 @@
 /// Do the interiors of two cells meet? Exactly, by separating planes. Which cells have others in their interiors?
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
 #include "mesh/index/candidates.hpp"
+#include "mesh/index/cell_index.hpp"
 #include "mesh/index/cell_tree.hpp"
 
 namespace barycert::index {

@@ -1,10 +1,27 @@
 #include "mesh/index/proof.hpp"
 
+#include <algorithm>
+#include <array>
 #include <atomic>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <utility>
+#include <vector>
 
+#include "barycert/mesh.hpp"
+#include "barycert/predicates.hpp"
 #include "core/base/disjoint_sets.hpp"
+#include "mesh/index/candidates.hpp"
+#include "mesh/index/cell_index.hpp"
+#include "mesh/index/cell_tree.hpp"
+#include "mesh/index/facet_contact.hpp"
+#include "mesh/index/facet_links.hpp"
 #include "mesh/index/open_sheets.hpp"
 #include "mesh/index/overlap.hpp"
+#include "mesh/threads/arena.hpp"
 
 namespace barycert::index {
 namespace {

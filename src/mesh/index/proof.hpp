@@ -9,6 +9,12 @@
 /// *open*.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "mesh/index/cell_index.hpp"
 #include "mesh/index/cell_tree.hpp"
 #include "mesh/index/facet_links.hpp"
 

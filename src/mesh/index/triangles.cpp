@@ -1,5 +1,20 @@
 #include "mesh/index/triangles.hpp"
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "barycert/mesh.hpp"
+#include "barycert/simplex.hpp"
+#include "core/base/disjoint_sets.hpp"
+#include "mesh/index/cell_index.hpp"
+#include "mesh/index/facet_contact.hpp"
+#include "mesh/index/ridges.hpp"
+#include "mesh/threads/arena.hpp"
+
 namespace barycert::index {
 namespace {
 

@@ -1,6 +1,13 @@
 /// Triangles in space in the order of a curve, nodes at one place as one.
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "barycert/mesh.hpp"
 #include "core/base/disjoint_sets.hpp"
 #include "mesh/index/cell_index.hpp"
 #include "mesh/index/facet_contact.hpp"

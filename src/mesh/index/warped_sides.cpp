@@ -3,10 +3,17 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <span>
 #include <unordered_map>
+#include <utility>
+#include <vector>
 
+#include "barycert/mesh.hpp"
 #include "barycert/predicates.hpp"
 #include "core/base/lists.hpp"
+#include "mesh/cell_types.hpp"
 #include "mesh/pulling.hpp"
 #include "mesh/threads/arena.hpp"
 

@@ -4,6 +4,11 @@
 /// has another one: two triangles, say, along either diagonal. Then cells overlap, or leave a gap, or both.
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
 #include "barycert/mesh.hpp"
 
 namespace barycert::mesh {

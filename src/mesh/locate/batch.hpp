@@ -1,8 +1,30 @@
 /// Many points, in blocks and chunks, on several threads.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "barycert/locator.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
+#include "barycert/simplex.hpp"
+#include "barycert/table.hpp"
 #include "core/base/finite.hpp"
+#include "mesh/index/cell_index.hpp"
 #include "mesh/locate/finder.hpp"
+#include "mesh/locate/lanes.hpp"
+#include "mesh/locate/locator_data.hpp"
+#include "mesh/locate/mapped/mapped_cells.hpp"
+#include "mesh/locate/sorted_points.hpp"
+#include "mesh/threads/arena.hpp"
 
 namespace barycert::locate {
 

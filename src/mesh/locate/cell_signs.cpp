@@ -1,5 +1,14 @@
 #include "mesh/locate/cell_signs.hpp"
 
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <optional>
+
+#include "barycert/predicates.hpp"
+#include "barycert/simplex.hpp"
+#include "mesh/index/cell_index.hpp"
 #include "mesh/pulling.hpp"
 
 namespace barycert::locate {

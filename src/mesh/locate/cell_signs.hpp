@@ -2,9 +2,12 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 
 #include "barycert/predicates.hpp"
+#include "barycert/simplex.hpp"
 #include "core/numerators-inl.hpp"
+#include "mesh/index/cell_index.hpp"
 #include "mesh/locate/names.hpp"
 
 namespace barycert::locate {

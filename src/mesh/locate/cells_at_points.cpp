@@ -1,8 +1,19 @@
 #include "mesh/locate/cells_at_points.hpp"
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
 
+#include "barycert/mesh.hpp"
+#include "mesh/index/bins.hpp"
+#include "mesh/index/box_tree.hpp"
+#include "mesh/index/cell_index.hpp"
 #include "mesh/threads/arena.hpp"
 
 #undef HWY_TARGET_INCLUDE

@@ -6,6 +6,15 @@
 /// its corners, include that of every point in its box, and a cell none of whose bins holds a point holds no point.
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "barycert/mesh.hpp"
+#include "mesh/index/bins.hpp"
 #include "mesh/index/box_tree.hpp"
 #include "mesh/locate/names.hpp"
 

@@ -1,8 +1,23 @@
 #include "mesh/locate/contested_cells.hpp"
 
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "barycert/predicates.hpp"
+#include "barycert/simplex.hpp"
+#include "mesh/index/cell_index.hpp"
+#include "mesh/index/cell_tree.hpp"
+#include "mesh/index/facet_contact.hpp"
 #include "mesh/index/overlap.hpp"
+#include "mesh/index/proof.hpp"
 #include "mesh/locate/cell_signs.hpp"
 #include "mesh/locate/lanes.hpp"
+#include "mesh/threads/arena.hpp"
 
 namespace barycert::locate {
 namespace {

@@ -6,7 +6,10 @@
 #include <span>
 #include <vector>
 
+#include "barycert/simplex.hpp"
 #include "core/base/lists.hpp"
+#include "mesh/index/cell_index.hpp"
+#include "mesh/index/cell_tree.hpp"
 #include "mesh/index/proof.hpp"
 #include "mesh/locate/lanes.hpp"
 #include "mesh/locate/lazy.hpp"

@@ -1,5 +1,20 @@
 #include "mesh/locate/finder.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+
+#include "barycert/predicates.hpp"
+#include "barycert/simplex.hpp"
+#include "barycert/table.hpp"
+#include "core/base/random.hpp"
+#include "mesh/index/cell_index.hpp"
+#include "mesh/locate/cell_signs.hpp"
+#include "mesh/locate/lanes.hpp"
+#include "mesh/locate/sorted_points.hpp"
+
 namespace barycert::locate {
 
 void Finder::find(const PointRecord* points, std::size_t count, Place* owner, Feature* feature,

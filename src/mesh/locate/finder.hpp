@@ -1,8 +1,22 @@
 /// Points to owners, a chunk at a time.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+#include "barycert/predicates.hpp"
+#include "barycert/simplex.hpp"
+#include "barycert/table.hpp"
+#include "mesh/index/cell_index.hpp"
+#include "mesh/index/proof.hpp"
 #include "mesh/locate/cell_signs.hpp"
+#include "mesh/locate/lanes.hpp"
 #include "mesh/locate/locator_data.hpp"
+#include "mesh/locate/sorted_points.hpp"
 
 namespace barycert::locate {
 

@@ -3,9 +3,9 @@
 
 #include <cstddef>
 #include <memory>
-#include <string_view>
 
 #include "barycert/locator.hpp"
+#include "barycert/mesh.hpp"
 #include "core/grid_lanes.hpp"
 #include "mesh/index/cell_index.hpp"
 #include "mesh/locate/mapped/mapped_cells.hpp"

@@ -1,5 +1,15 @@
 #include "mesh/locate/lanes.hpp"
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
 
+#include "barycert/simplex.hpp"
+#include "mesh/index/bins.hpp"
+#include "mesh/index/cell_index.hpp"
+#include "mesh/index/cell_tree.hpp"
 #include "mesh/locate/occupancy.hpp"
 
 #undef HWY_TARGET_INCLUDE

@@ -1,6 +1,13 @@
 /// Many points at once, on SIMD lanes: their bins, the cells whose boxes hold them, steps of their walks.
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mesh/index/cell_index.hpp"
 #include "mesh/index/cell_tree.hpp"
 #include "mesh/locate/names.hpp"
 

@@ -3,10 +3,15 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <utility>
 #include <vector>
 
+#include "barycert/locator.hpp"
+#include "mesh/index/cell_index.hpp"
+#include "mesh/index/cell_tree.hpp"
+#include "mesh/index/facet_links.hpp"
 #include "mesh/index/proof.hpp"
 #include "mesh/locate/contested_cells.hpp"
 #include "mesh/locate/frozen_index.hpp"
@@ -14,6 +19,7 @@
 #include "mesh/locate/nearest.hpp"
 #include "mesh/locate/node_cells.hpp"
 #include "mesh/locate/occupancy.hpp"
+#include "mesh/threads/arena.hpp"
 
 namespace barycert::locate {
 

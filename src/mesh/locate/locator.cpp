@@ -1,6 +1,32 @@
+#include "barycert/locator.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "barycert/environment.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
+#include "barycert/simplex.hpp"
+#include "barycert/table.hpp"
+#include "core/base/finite.hpp"
+#include "core/grid_lanes.hpp"
 #include "mesh/consistency.hpp"
+#include "mesh/index/cell_index.hpp"
+#include "mesh/index/warped_sides.hpp"
 #include "mesh/locate/batch.hpp"
+#include "mesh/locate/finder.hpp"
+#include "mesh/locate/lanes.hpp"
+#include "mesh/locate/locator_data.hpp"
+#include "mesh/locate/preparation_policy.hpp"
+#include "mesh/locate/sorted_points.hpp"
+#include "mesh/threads/arena.hpp"
 
 namespace barycert {
 Locator::Locator(std::unique_ptr<locate::LocatorData> data)

@@ -1,9 +1,11 @@
 /// All that a Locator keeps: a frozen index, its lazy parts, one policy of when they pay, and work space.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "barycert/locator.hpp"
+#include "barycert/mesh.hpp"
 #include "mesh/locate/frozen_index.hpp"
 #include "mesh/locate/lazy_parts.hpp"
 #include "mesh/locate/pool.hpp"

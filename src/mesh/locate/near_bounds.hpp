@@ -14,7 +14,10 @@
 /// is added.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 #include "core/base/vectors.hpp"

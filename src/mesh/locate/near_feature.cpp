@@ -1,11 +1,19 @@
 #include "mesh/locate/near_feature.hpp"
 
+#include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <initializer_list>
+#include <optional>
 
+#include "barycert/predicates.hpp"
+#include "barycert/simplex.hpp"
 #include "barycert/weights.hpp"
 #include "core/base/vectors.hpp"
+#include "core/integer.hpp"
 #include "core/whole_points.hpp"
 #include "mesh/index/facet_contact.hpp"
 

@@ -5,6 +5,10 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "barycert/mesh.hpp"
 #include "barycert/simplex.hpp"

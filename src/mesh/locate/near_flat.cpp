@@ -1,6 +1,14 @@
 // Triangles in space without an area: segments and points.
 
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+
 #include "barycert/predicates.hpp"
+#include "barycert/simplex.hpp"
 #include "mesh/index/facet_contact.hpp"
 #include "mesh/locate/near_feature.hpp"
 

@@ -3,10 +3,25 @@
 // exactly.
 #include "mesh/locate/nearest.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+
 #include "barycert/environment.hpp"
+#include "barycert/locator.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
+#include "mesh/index/box_tree.hpp"
+#include "mesh/index/cell_index.hpp"
 #include "mesh/locate/batch.hpp"
 #include "mesh/locate/mapped/nearest_side.hpp"
 #include "mesh/locate/near_bounds.hpp"
+#include "mesh/locate/near_feature.hpp"
 
 namespace barycert {
 namespace locate {

@@ -1,8 +1,14 @@
 /// The nearest point of a mesh: boxes of cells to find it from anywhere, and the search, with its work counted.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
 #include "barycert/locator.hpp"
 #include "mesh/index/box_tree.hpp"
+#include "mesh/index/cell_index.hpp"
 #include "mesh/locate/names.hpp"
 #include "mesh/locate/near_feature.hpp"
 

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "barycert/predicates.hpp"
 #include "core/base/lists.hpp"
 #include "mesh/index/cell_index.hpp"
 #include "mesh/locate/names.hpp"

@@ -1,9 +1,16 @@
 #include "mesh/locate/occupancy.hpp"
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 
+#include "barycert/simplex.hpp"
 #include "core/numerators-inl.hpp"
+#include "mesh/index/bins.hpp"
+#include "mesh/index/cell_index.hpp"
 #include "mesh/threads/arena.hpp"
 
 namespace barycert::locate {

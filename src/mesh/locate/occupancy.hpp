@@ -1,6 +1,13 @@
 /// Where a mesh surely has no cell.
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "mesh/index/bins.hpp"
+#include "mesh/index/cell_index.hpp"
 #include "mesh/locate/names.hpp"
 
 namespace barycert::locate {

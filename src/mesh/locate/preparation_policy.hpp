@@ -7,7 +7,11 @@
 #include <cstddef>
 
 #include "barycert/locator.hpp"
+#include "mesh/index/cell_index.hpp"
+#include "mesh/locate/contested_cells.hpp"
 #include "mesh/locate/lazy_parts.hpp"
+#include "mesh/locate/occupancy.hpp"
+#include "mesh/threads/arena.hpp"
 
 namespace barycert::locate {
 

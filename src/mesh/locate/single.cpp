@@ -1,8 +1,22 @@
 // One point: a walk without the buffers of many.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <cstdlib>
 
 #include "barycert/environment.hpp"
+#include "barycert/locator.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
+#include "barycert/simplex.hpp"
+#include "core/grid_lanes.hpp"
+#include "mesh/index/cell_index.hpp"
 #include "mesh/locate/batch.hpp"
+#include "mesh/locate/cell_signs.hpp"
+#include "mesh/locate/finder.hpp"
+#include "mesh/locate/lanes.hpp"
+#include "mesh/locate/locator_data.hpp"
+#include "mesh/locate/occupancy.hpp"
 
 namespace barycert {
 namespace locate {

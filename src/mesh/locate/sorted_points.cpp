@@ -1,6 +1,14 @@
 #include "mesh/locate/sorted_points.hpp"
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <numeric>
+#include <span>
+
+#include "mesh/index/cell_index.hpp"
+#include "mesh/locate/lanes.hpp"
+#include "mesh/locate/occupancy.hpp"
 
 namespace barycert::locate {
 

@@ -1,7 +1,22 @@
 #include "mesh/pieces/distribution.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cstdint>
 #include <cstring>
+#include <iterator>
+#include <limits>
 #include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
+#include "mesh/index/box_tree.hpp"
+#include "mesh/pieces/exchange.hpp"
+#include "mesh/pieces/piece.hpp"
 
 namespace barycert::pieces {
 

@@ -1,6 +1,17 @@
 /// Values at the points of all ranks, from the pieces of a mesh that they have.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
+#include "mesh/pieces/exchange.hpp"
 #include "mesh/pieces/piece.hpp"
 
 namespace barycert::pieces {

@@ -2,6 +2,15 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "barycert/error_codes.hpp"
+#include "barycert/result.hpp"
 
 namespace barycert::pieces {
 

@@ -4,10 +4,13 @@
 /// all `agree` on whether it went well everywhere. Memory for messages is taken there, too: sizes go before contents.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <exception>
 #include <new>
 #include <span>
 #include <type_traits>
+#include <vector>
 
 #include "barycert/result.hpp"
 

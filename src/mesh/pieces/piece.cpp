@@ -1,12 +1,32 @@
 #include "mesh/pieces/piece.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <functional>
+#include <limits>
 #include <numeric>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "barycert/environment.hpp"
 #include "barycert/grid.hpp"
+#include "barycert/locator.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
+#include "barycert/weights.hpp"
 #include "core/isoparametric/inverse.hpp"
+#include "core/shape_functions.hpp"
+#include "mesh/cell_types.hpp"
 #include "mesh/locate/locator_data.hpp"
 #include "mesh/locate/mapped/nearest_side.hpp"
+#include "mesh/locate/near_feature.hpp"
+#include "mesh/pieces/exchange.hpp"
 #include "mesh/pulling.hpp"
 #include "mesh/sample/points/near_piece.hpp"
 

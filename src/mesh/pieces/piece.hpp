@@ -1,10 +1,21 @@
 /// A piece of a mesh as it lies in space, and what all pieces of the mesh are taken for.
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
 #include "barycert/locator.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
+#include "barycert/simplex.hpp"
 #include "core/base/finite.hpp"
 #include "core/base/strict_math.hpp"
-#include "mesh/facets/facet_triangles.hpp"
+#include "mesh/cell_types.hpp"              // IWYU pragma: export: as well as their types
+#include "mesh/facets/facet_triangles.hpp"  // IWYU pragma: export: bindings cut polygons
 #include "mesh/index/box_tree.hpp"
 #include "mesh/pieces/exchange.hpp"
 #include "mesh/pulling.hpp"  // IWYU pragma: export: bindings tell which cells cannot be cut

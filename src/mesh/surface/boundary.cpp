@@ -1,8 +1,19 @@
 // The facets of a mesh that only one cell has.
 
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "barycert/mesh.hpp"
+#include "barycert/predicates.hpp"
+#include "barycert/result.hpp"
+#include "barycert/surface.hpp"
 #include "core/base/large_pages.hpp"
 #include "mesh/adjacency.hpp"
 #include "mesh/surface/parts.hpp"
+#include "mesh/threads/arena.hpp"
 
 namespace barycert::surface {
 namespace {

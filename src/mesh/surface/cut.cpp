@@ -1,13 +1,25 @@
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <string>
+#include <vector>
 
+#include "barycert/environment.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
+#include "barycert/simplex.hpp"
+#include "barycert/surface.hpp"
 #include "core/base/finite.hpp"
 #include "core/base/large_pages.hpp"
 #include "core/base/strict_math.hpp"
 #include "core/base/text.hpp"
 #include "core/blocks.hpp"
 #include "core/exact_tier.hpp"
+#include "core/integer.hpp"
 #include "core/scaled_double.hpp"
 #include "mesh/consistency.hpp"
 #include "mesh/surface/cell_cases.hpp"

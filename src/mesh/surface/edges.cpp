@@ -1,5 +1,15 @@
 #include "mesh/surface/edges.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "barycert/mesh.hpp"
+#include "barycert/surface.hpp"
 #include "core/base/strict_math.hpp"
 #include "core/base/vectors.hpp"
 #include "mesh/part.hpp"

@@ -2,7 +2,13 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
 
+#include "barycert/mesh.hpp"
 #include "barycert/surface.hpp"
 
 namespace barycert::surface {

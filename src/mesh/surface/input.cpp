@@ -1,10 +1,19 @@
-#include "mesh/surface/parts.hpp"
-
+#include <algorithm>
 #include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
+#include "barycert/surface.hpp"
 #include "core/base/finite.hpp"
 #include "core/base/large_pages.hpp"
 #include "mesh/consistency.hpp"
+#include "mesh/surface/parts.hpp"
+#include "mesh/threads/arena.hpp"
 
 namespace barycert::surface {
 namespace {

@@ -1,3 +1,9 @@
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include "barycert/mesh.hpp"
+#include "barycert/simplex.hpp"
+#include "barycert/surface.hpp"
 #include "mesh/surface/parts.hpp"
 
 #undef HWY_TARGET_INCLUDE

@@ -3,9 +3,15 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
 
 #include "barycert/environment.hpp"
+#include "barycert/mesh.hpp"
 #include "barycert/predicates.hpp"
+#include "barycert/result.hpp"
 #include "barycert/surface.hpp"
 #include "mesh/threads/arena.hpp"
 

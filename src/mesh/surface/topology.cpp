@@ -1,12 +1,20 @@
-#include "mesh/surface/parts.hpp"
-
+#include <algorithm>
+#include <array>
 #include <atomic>
+#include <cstddef>
+#include <cstdint>
 #include <numeric>
+#include <string>
+#include <utility>
+#include <vector>
 
-#include "core/base/finite.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
+#include "barycert/surface.hpp"
 #include "core/base/large_pages.hpp"
 #include "mesh/adjacency.hpp"
 #include "mesh/surface/cell_cases.hpp"
+#include "mesh/surface/parts.hpp"
 
 namespace barycert::surface {
 namespace {

@@ -6,6 +6,8 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <functional>
 #include <limits>
 
 namespace barycert::base {

@@ -1,7 +1,28 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <tuple>
+#include <vector>
+
 #include "barycert/environment.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
+#include "barycert/sampler.hpp"
+#include "barycert/simplex.hpp"
+#include "barycert/table.hpp"
+#include "barycert/verify.hpp"
+#include "core/base/finite.hpp"
 #include "core/base/random.hpp"
+#include "mesh/index/cell_index.hpp"
 #include "mesh/locate/batch.hpp"
+#include "mesh/locate/cell_signs.hpp"
+#include "mesh/locate/locator_data.hpp"
 #include "mesh/sample/points/sampler_data.hpp"
+#include "mesh/threads/arena.hpp"
 #include "mesh/verify/errors.hpp"
 
 namespace barycert {

@@ -1,9 +1,19 @@
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "barycert/environment.hpp"
+#include "barycert/locator.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
+#include "barycert/sampler.hpp"
 #include "barycert/verify.hpp"
 #include "core/base/finite.hpp"
+#include "mesh/index/cell_index.hpp"
 #include "mesh/locate/batch.hpp"
 #include "mesh/sample/points/sampler_data.hpp"
 #include "mesh/sample/quantity/quantities.hpp"

@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "audit/search/moves.hpp"
+#include "core/base/ulp.hpp"
 #include "tests/audit/audit_helpers.hpp"
 
 namespace barycert::audit {

@@ -8,6 +8,7 @@
 ///     const AuditReport report = run_audit(audit.options, audit.meshes).value();
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <optional>
@@ -15,32 +16,16 @@
 #include <vector>
 
 #include "barycert/audit.hpp"
-#include "barycert/audit_search.hpp"
 #include "barycert/baseline.hpp"
 #include "barycert/certificate.hpp"
 #include "barycert/check.hpp"
-#include "barycert/check_results.hpp"
 #include "barycert/choices.hpp"
-#include "barycert/defect.hpp"
-#include "barycert/environment.hpp"
 #include "barycert/family.hpp"
-#include "barycert/finding.hpp"
-#include "barycert/fix.hpp"
 #include "barycert/gaps.hpp"
-#include "barycert/inverse_rules.hpp"
 #include "barycert/kernels.hpp"
-#include "barycert/measures.hpp"
+#include "barycert/mesh.hpp"
 #include "barycert/mesh_files.hpp"
-#include "barycert/mutants.hpp"
-#include "barycert/not_finite.hpp"
-#include "barycert/oracle.hpp"
-#include "barycert/plc.hpp"
-#include "barycert/rule_audit.hpp"
-#include "barycert/statistics.hpp"
-#include "barycert/surface.hpp"
-#include "barycert/surface_report.hpp"
-#include "barycert/surface_rules.hpp"
-#include "barycert/threshold.hpp"
+#include "barycert/result.hpp"
 #include "barycert/witness.hpp"
 
 namespace barycert {

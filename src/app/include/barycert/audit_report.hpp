@@ -6,11 +6,28 @@
 ///     {}).value(); const std::string json = audit_json(report), table = audit_text(report, {});
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "barycert/audit.hpp"
 #include "barycert/audit_pictures.hpp"
 #include "barycert/audit_search.hpp"
+#include "barycert/baseline.hpp"
+#include "barycert/family.hpp"
 #include "barycert/gaps.hpp"
+#include "barycert/inverse_rules.hpp"
+#include "barycert/kernels.hpp"
 #include "barycert/mutants.hpp"
 #include "barycert/report.hpp"
+#include "barycert/result.hpp"
+#include "barycert/surface_rules.hpp"
+#include "barycert/threshold.hpp"
+#include "barycert/witness.hpp"
 
 namespace barycert {
 

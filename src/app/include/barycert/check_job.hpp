@@ -18,6 +18,7 @@
 #include "barycert/mesh.hpp"
 #include "barycert/result.hpp"
 #include "barycert/surface.hpp"
+#include "barycert/table.hpp"
 
 namespace barycert {
 

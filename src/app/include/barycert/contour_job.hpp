@@ -18,9 +18,10 @@
 
 #include "barycert/figure.hpp"
 #include "barycert/job.hpp"
+#include "barycert/raster.hpp"
 #include "barycert/result.hpp"
-#include "barycert/sampler.hpp"
 #include "barycert/surface.hpp"
+#include "barycert/table.hpp"
 
 namespace barycert {
 

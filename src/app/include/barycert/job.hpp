@@ -23,6 +23,7 @@
 
 #include "barycert/locator.hpp"
 #include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
 #include "barycert/series.hpp"
 
 namespace barycert {

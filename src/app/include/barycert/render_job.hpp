@@ -11,6 +11,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -24,7 +25,9 @@
 #include "barycert/mesh.hpp"
 #include "barycert/raster.hpp"
 #include "barycert/result.hpp"
+#include "barycert/scene.hpp"
 #include "barycert/surface.hpp"
+#include "barycert/weights.hpp"
 
 namespace barycert {
 

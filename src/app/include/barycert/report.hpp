@@ -10,35 +10,22 @@
 ///     const std::string text = sample_text(sample_files(job).value(), false);
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "barycert/certificate.hpp"
 #include "barycert/check.hpp"
 #include "barycert/check_job.hpp"
-#include "barycert/check_results.hpp"
 #include "barycert/contour_job.hpp"
-#include "barycert/defect.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/figure.hpp"
-#include "barycert/fix.hpp"
-#include "barycert/gmsh_files.hpp"
-#include "barycert/grid.hpp"
-#include "barycert/job.hpp"
-#include "barycert/measures.hpp"
-#include "barycert/mesh_files.hpp"
-#include "barycert/not_finite.hpp"
-#include "barycert/plc.hpp"
-#include "barycert/plc_files.hpp"
-#include "barycert/point_files.hpp"
+#include "barycert/mesh.hpp"
 #include "barycert/render_job.hpp"
+#include "barycert/result.hpp"
 #include "barycert/sample_job.hpp"
-#include "barycert/series.hpp"
+#include "barycert/sampler.hpp"
 #include "barycert/surface.hpp"
-#include "barycert/surface_files.hpp"
-#include "barycert/surface_report.hpp"
-#include "barycert/table_files.hpp"
-#include "barycert/tetgen_files.hpp"
-#include "barycert/verify.hpp"
 #include "barycert/verify_job.hpp"
-#include "barycert/vtk_files.hpp"
 
 namespace barycert {
 

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -20,10 +21,12 @@
 #include "barycert/figure.hpp"
 #include "barycert/grid.hpp"
 #include "barycert/job.hpp"
+#include "barycert/mesh.hpp"
 #include "barycert/not_finite.hpp"
 #include "barycert/result.hpp"
 #include "barycert/sampler.hpp"
-#include "barycert/vtk_files.hpp"
+#include "barycert/table.hpp"
+#include "barycert/weights.hpp"
 
 namespace barycert {
 

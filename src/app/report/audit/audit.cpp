@@ -1,6 +1,28 @@
 // Report of an audit, for people.
 
+#include "barycert/audit.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
 #include "app/report/audit/audit_words.hpp"
+#include "app/report/common/document.hpp"
+#include "app/report/common/terminal_text.hpp"
+#include "barycert/audit_report.hpp"
+#include "barycert/certificate.hpp"
+#include "barycert/finding.hpp"
+#include "barycert/report.hpp"
+#include "barycert/result.hpp"
+#include "barycert/simplex.hpp"
+#include "barycert/statistics.hpp"
+#include "barycert/witness.hpp"
 
 namespace barycert {
 

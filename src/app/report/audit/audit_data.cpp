@@ -1,9 +1,32 @@
 // JSON of audits, of the catalogue and of the families, for programs; reports for systems that run audits.
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <map>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "app/report/audit/audit_words.hpp"
+#include "app/report/common/json.hpp"
+#include "app/report/common/terminal_text.hpp"
 #include "audit/asking.hpp"
 #include "audit/json_members.hpp"
+#include "barycert/audit.hpp"
+#include "barycert/audit_report.hpp"
+#include "barycert/baseline.hpp"
+#include "barycert/certificate.hpp"
+#include "barycert/environment.hpp"
 #include "barycert/finding.hpp"
+#include "barycert/report.hpp"
+#include "barycert/simplex.hpp"
+#include "barycert/statistics.hpp"
+#include "barycert/threshold.hpp"
+#include "barycert/witness.hpp"
+#include "core/base/text.hpp"
 
 namespace barycert {
 

@@ -1,9 +1,30 @@
 // Accuracy against speed, sizes of errors, signs and maps of meshes, as markup of the audit's page.
 
+#include "barycert/audit_pictures.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <utility>
+#include <vector>
+
 #include "app/report/audit/audit_words.hpp"
+#include "app/report/common/terminal_text.hpp"
+#include "barycert/audit.hpp"
+#include "barycert/raster.hpp"
+#include "barycert/simplex.hpp"
+#include "barycert/statistics.hpp"
 #include "core/base/decades.hpp"
+#include "core/base/text.hpp"
 #include "draw/axes.hpp"
 #include "draw/colour_map.hpp"
+#include "draw/picture.hpp"
 #include "draw/png/png_file.hpp"
 
 namespace barycert::report {

@@ -1,5 +1,24 @@
 #include "app/report/audit/audit_words.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <numeric>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "app/report/common/terminal_text.hpp"
+#include "barycert/audit.hpp"
+#include "barycert/family.hpp"
+#include "barycert/finding.hpp"
+#include "barycert/report.hpp"
+#include "barycert/simplex.hpp"
+#include "barycert/statistics.hpp"
+#include "barycert/witness.hpp"
+
 namespace barycert::report {
 namespace {
 

@@ -1,8 +1,23 @@
 /// The words and the pictures of reports on audited kernels.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
 #include "app/report/common/document.hpp"
+#include "app/report/common/json.hpp"
+#include "app/report/common/terminal_text.hpp"
+#include "barycert/audit.hpp"
+#include "barycert/audit_pictures.hpp"
 #include "barycert/audit_report.hpp"
+#include "barycert/family.hpp"
+#include "barycert/finding.hpp"
+#include "barycert/kernels.hpp"
+#include "barycert/report.hpp"
+#include "barycert/statistics.hpp"
+#include "barycert/witness.hpp"
 
 namespace barycert::report {
 

@@ -1,6 +1,16 @@
 // Lists of kernels and families, for people and programs.
 
+#include <string>
+#include <vector>
+
 #include "app/report/audit/audit_words.hpp"
+#include "app/report/common/document.hpp"
+#include "app/report/common/json.hpp"
+#include "app/report/common/terminal_text.hpp"
+#include "barycert/audit_report.hpp"
+#include "barycert/family.hpp"
+#include "barycert/kernels.hpp"
+#include "barycert/simplex.hpp"
 
 namespace barycert {
 

@@ -1,6 +1,28 @@
 // Gaps and overlaps between the cells of a mesh; drift over the size of a triangle, and rules of texel addressing.
 
+#include "barycert/gaps.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "app/report/audit/audit_words.hpp"
+#include "app/report/common/document.hpp"
+#include "app/report/common/json.hpp"
+#include "app/report/common/terminal_text.hpp"
+#include "barycert/audit.hpp"
+#include "barycert/audit_pictures.hpp"
+#include "barycert/audit_report.hpp"
+#include "barycert/certificate.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/report.hpp"
+#include "barycert/simplex.hpp"
+#include "core/base/text.hpp"
 
 namespace barycert {
 

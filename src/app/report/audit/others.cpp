@@ -1,7 +1,22 @@
 // Measurements of `./run flags` and `./run systems`: read, and shown as tables that sort.
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
 #include "app/report/audit/audit_words.hpp"
+#include "app/report/common/document.hpp"
+#include "app/report/common/terminal_text.hpp"
 #include "audit/json_members.hpp"
+#include "barycert/audit_report.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/result.hpp"
 
 namespace barycert {
 

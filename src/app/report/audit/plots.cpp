@@ -1,9 +1,25 @@
 // Pictures that are files of their own: errors over condition numbers, and over sizes of triangles.
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
 #include "audit/asking.hpp"
+#include "barycert/audit.hpp"
+#include "barycert/audit_pictures.hpp"
 #include "barycert/audit_report.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/kernels.hpp"
+#include "barycert/simplex.hpp"
+#include "barycert/statistics.hpp"
 #include "core/base/text.hpp"
 #include "draw/axes.hpp"
+#include "draw/picture.hpp"
 
 namespace barycert {
 

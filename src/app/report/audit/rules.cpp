@@ -1,7 +1,25 @@
 // Rules that answer cases of their own: on triangles in space, held against exact answers; inverse maps of cells by
 // Newton's method, held against proved ones.
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <utility>
+
 #include "app/report/audit/audit_words.hpp"
+#include "app/report/common/document.hpp"
+#include "app/report/common/json.hpp"
+#include "app/report/common/terminal_text.hpp"
+#include "barycert/audit_report.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/inverse_rules.hpp"
+#include "barycert/report.hpp"
+#include "barycert/simplex.hpp"
+#include "barycert/statistics.hpp"
+#include "barycert/surface_rules.hpp"
+#include "core/base/text.hpp"
 
 namespace barycert {
 

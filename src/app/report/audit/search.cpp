@@ -1,7 +1,23 @@
 // A worst-case search, and the mutation score of the families.
 
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "app/report/audit/audit_words.hpp"
+#include "app/report/common/document.hpp"
+#include "app/report/common/json.hpp"
+#include "app/report/common/terminal_text.hpp"
 #include "audit/json_members.hpp"
+#include "barycert/audit_report.hpp"
+#include "barycert/audit_search.hpp"
+#include "barycert/mutants.hpp"
+#include "barycert/report.hpp"
+#include "barycert/simplex.hpp"
 
 namespace barycert {
 

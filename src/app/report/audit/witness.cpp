@@ -1,7 +1,22 @@
 // One witness, with the exact answer and those of kernels; the catalogue and the families.
 
+#include "barycert/witness.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
 #include "app/report/common/document.hpp"
+#include "app/report/common/terminal_text.hpp"
 #include "barycert/audit_report.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/finding.hpp"
+#include "barycert/oracle.hpp"
+#include "barycert/report.hpp"
+#include "barycert/simplex.hpp"
+#include "core/base/text.hpp"
 
 namespace barycert {
 

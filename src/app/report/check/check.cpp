@@ -1,10 +1,31 @@
 // Report on a check of a mesh, for people.
 
+#include "barycert/check.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "app/report/check/check_data.hpp"
 #include "app/report/check/check_document.hpp"
 #include "app/report/check/check_measures.hpp"
 #include "app/report/check/check_words.hpp"
 #include "app/report/common/document.hpp"
+#include "app/report/common/terminal_text.hpp"
+#include "barycert/check_job.hpp"
+#include "barycert/check_results.hpp"
+#include "barycert/defect.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/measures.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/not_finite.hpp"
+#include "barycert/report.hpp"
+#include "barycert/result.hpp"
+#include "barycert/surface_report.hpp"
+#include "core/base/text.hpp"
 
 namespace barycert {
 

@@ -1,10 +1,24 @@
 // Pictures of cells.
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
 #include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "app/report/check/check_pictures.hpp"
+#include "barycert/check.hpp"
+#include "barycert/measures.hpp"
+#include "barycert/mesh.hpp"
 #include "core/base/finite.hpp"
+#include "draw/picture.hpp"
 
 namespace barycert::report {
 namespace {

@@ -3,11 +3,24 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <limits>
 #include <numeric>
 #include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "app/report/check/check_pictures.hpp"
 #include "app/report/check/check_words.hpp"
+#include "barycert/check.hpp"
+#include "barycert/check_results.hpp"
+#include "barycert/defect.hpp"
+#include "barycert/measures.hpp"
+#include "barycert/mesh.hpp"
 
 namespace barycert::report {
 namespace {

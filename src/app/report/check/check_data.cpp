@@ -1,9 +1,29 @@
 // The report on a mesh as programs read it, and what systems that run checks are told.
 #include "app/report/check/check_data.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
 #include "app/report/check/check_words.hpp"
-#include "app/report/common/document.hpp"
+#include "app/report/common/json.hpp"
+#include "barycert/check.hpp"
+#include "barycert/check_job.hpp"
+#include "barycert/check_results.hpp"
 #include "barycert/defect.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/fix.hpp"
+#include "barycert/measures.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/report.hpp"
+#include "barycert/surface_report.hpp"
+#include "core/base/text.hpp"
 
 namespace barycert {
 

@@ -7,7 +7,9 @@
 
 #include "app/report/common/json.hpp"
 #include "barycert/check.hpp"
-#include "barycert/report.hpp"
+#include "barycert/check_job.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/measures.hpp"
 
 namespace barycert::report {
 

@@ -1,12 +1,11 @@
 /// The report on a check of a mesh, for text, JSON and pages.
 #pragma once
 
-#include <functional>
 #include <string>
 
 #include "app/report/common/document.hpp"
-#include "barycert/check_job.hpp"
 #include "barycert/check.hpp"
+#include "barycert/check_job.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/mesh.hpp"
 

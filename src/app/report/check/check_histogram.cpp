@@ -1,12 +1,26 @@
 // Measures of cells and their histograms.
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
+#include "app/report/check/check_measures.hpp"
 #include "app/report/check/check_pictures.hpp"
-#include "app/report/check/check_words.hpp"
+#include "app/report/common/terminal_text.hpp"
+#include "barycert/check.hpp"
+#include "barycert/environment.hpp"
 #include "barycert/report.hpp"
-#include "draw/files.hpp"
+#include "barycert/result.hpp"
+#include "draw/axes.hpp"
 #include "draw/histogram.hpp"
+#include "draw/picture.hpp"
 
 namespace barycert::report {
 namespace {

@@ -2,11 +2,27 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cstddef>
 #include <deque>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "app/report/check/check_measures.hpp"
 #include "app/report/check/check_pictures.hpp"
 #include "app/report/check/check_words.hpp"
+#include "app/report/common/terminal_text.hpp"
+#include "barycert/check.hpp"
+#include "barycert/defect.hpp"
+#include "barycert/figure.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/raster.hpp"
+#include "barycert/result.hpp"
+#include "barycert/surface.hpp"
+#include "core/base/text.hpp"
 #include "draw/layout.hpp"
+#include "draw/picture.hpp"
 #include "draw/viewer/page.hpp"
 #include "mesh/part.hpp"
 #include "mesh/surface/edges.hpp"

@@ -5,6 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
+
+#include "barycert/check.hpp"
+#include "barycert/measures.hpp"
 
 namespace barycert::report {
 

@@ -3,12 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string>
 
 #include "app/report/check/check_document.hpp"
 #include "app/report/check/check_pictures.hpp"
 #include "app/report/common/document.hpp"
+#include "barycert/check_job.hpp"
+#include "barycert/defect.hpp"
 #include "barycert/figure.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/raster.hpp"
 #include "barycert/report.hpp"
+#include "barycert/result.hpp"
+#include "draw/picture.hpp"
 
 namespace barycert {
 

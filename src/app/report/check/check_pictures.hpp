@@ -2,19 +2,21 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "app/report/check/check_measures.hpp"
 #include "barycert/certificate.hpp"
 #include "barycert/check.hpp"
 #include "barycert/check_results.hpp"
-#include "barycert/defect.hpp"
-#include "barycert/fix.hpp"
-#include "barycert/measures.hpp"
-#include "barycert/not_finite.hpp"
-#include "barycert/plc.hpp"
-#include "barycert/surface.hpp"
-#include "barycert/surface_report.hpp"
-#include "draw/picture.hpp"
+#include "barycert/mesh.hpp"
+#include "draw/picture.hpp"  // IWYU pragma: keep
 
 namespace barycert::report {
 

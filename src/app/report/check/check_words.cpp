@@ -1,6 +1,24 @@
 #include "app/report/check/check_words.hpp"
 
-#include "app/report/common/document.hpp"
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "app/report/common/terminal_text.hpp"
+#include "barycert/check.hpp"
+#include "barycert/check_job.hpp"
+#include "barycert/check_results.hpp"
+#include "barycert/defect.hpp"
+#include "barycert/fix.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
+#include "barycert/surface_report.hpp"
+#include "core/base/text.hpp"
 
 namespace barycert::report {
 namespace {

@@ -1,8 +1,18 @@
 /// The words of reports on meshes.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
 #include "app/report/common/terminal_text.hpp"
-#include "barycert/report.hpp"
+#include "barycert/check.hpp"
+#include "barycert/check_job.hpp"
+#include "barycert/check_results.hpp"
+#include "barycert/defect.hpp"
+#include "barycert/mesh.hpp"
 
 namespace barycert::report {
 

@@ -2,9 +2,21 @@
 
 #include "app/report/common/document.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <sstream>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
 
+#include "app/report/common/terminal_text.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/mesh.hpp"
 #include "barycert/report.hpp"
+#include "core/base/text.hpp"
 
 namespace barycert {
 

@@ -4,11 +4,23 @@
 /// it. Pages ask for nothing from anywhere, and their head forbids it.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <initializer_list>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
 
 #include "app/report/common/json.hpp"
 #include "app/report/common/terminal_text.hpp"
-#include "draw/picture.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/not_finite.hpp"
+#include "draw/picture.hpp"  // IWYU pragma: keep
 #include "files/json_text.hpp"
 
 namespace barycert::report {

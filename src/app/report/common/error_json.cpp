@@ -1,5 +1,9 @@
+#include <string>
+#include <string_view>
+
 #include "app/report/common/json.hpp"
 #include "barycert/error_report.hpp"
+#include "barycert/result.hpp"
 
 namespace barycert {
 

@@ -6,19 +6,15 @@
 #include <concepts>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
 #include <type_traits>
 
 #include "barycert/certificate.hpp"
-#include "barycert/check.hpp"
-#include "barycert/check_results.hpp"
-#include "barycert/defect.hpp"
 #include "barycert/environment.hpp"
-#include "barycert/fix.hpp"
-#include "barycert/measures.hpp"
+#include "barycert/mesh.hpp"
 #include "barycert/not_finite.hpp"
-#include "barycert/plc.hpp"
-#include "barycert/surface.hpp"
-#include "barycert/surface_report.hpp"
+#include "barycert/result.hpp"
 
 namespace barycert::report {
 

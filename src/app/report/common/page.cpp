@@ -1,6 +1,19 @@
 // Documents as pages of HTML.
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
 #include "app/report/common/document.hpp"
+#include "app/report/common/terminal_text.hpp"
+#include "core/base/text.hpp"
+#include "draw/picture.hpp"
 
 namespace barycert::report {
 

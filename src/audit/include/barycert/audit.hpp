@@ -11,6 +11,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -24,6 +25,7 @@
 #include "barycert/mesh.hpp"
 #include "barycert/oracle.hpp"
 #include "barycert/result.hpp"
+#include "barycert/simplex.hpp"
 #include "barycert/statistics.hpp"
 #include "barycert/witness.hpp"
 

@@ -16,7 +16,7 @@
 
 #include "barycert/certificate.hpp"
 #include "barycert/mesh.hpp"
-#include "barycert/oracle.hpp"
+#include "barycert/simplex.hpp"
 
 namespace barycert {
 

@@ -13,8 +13,8 @@
 #include <optional>
 #include <string_view>
 
-#include "barycert/oracle.hpp"
 #include "barycert/severity.hpp"
+#include "barycert/simplex.hpp"
 
 namespace barycert {
 

@@ -9,10 +9,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <map>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,6 +21,7 @@
 #include "barycert/kernels.hpp"
 #include "barycert/mesh.hpp"
 #include "barycert/result.hpp"
+#include "barycert/simplex.hpp"
 
 namespace barycert {
 

@@ -14,13 +14,15 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
 
-#include "barycert/oracle.hpp"
+#include "barycert/family.hpp"
 #include "barycert/rule_audit.hpp"
+#include "barycert/simplex.hpp"
 #include "barycert/statistics.hpp"
 
 namespace barycert {

@@ -11,6 +11,10 @@
 #pragma once
 
 #include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "barycert/result.hpp"
 #include "barycert/simplex.hpp"

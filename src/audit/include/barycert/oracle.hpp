@@ -24,7 +24,10 @@
 ///     const bool on_edge = exact.region == Region::boundary;
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <limits>
+#include <span>
 
 #include "barycert/simplex.hpp"
 

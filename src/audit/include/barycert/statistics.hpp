@@ -9,12 +9,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <numeric>
 #include <string_view>
 #include <vector>
 
 #include "barycert/finding.hpp"
+#include "barycert/simplex.hpp"
 
 namespace barycert {
 

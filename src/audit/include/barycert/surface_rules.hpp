@@ -14,11 +14,13 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "barycert/family.hpp"
 #include "barycert/rule_audit.hpp"
 #include "barycert/statistics.hpp"
 

@@ -19,6 +19,7 @@
 #include "barycert/kernels.hpp"
 #include "barycert/oracle.hpp"
 #include "barycert/result.hpp"
+#include "barycert/simplex.hpp"
 
 namespace barycert {
 

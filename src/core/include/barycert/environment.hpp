@@ -33,7 +33,10 @@
 ///     const Status exact = check_environment(measure_environment());  // an Error that names the rounding mode
 #pragma once
 
-#include <cfenv>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "barycert/result.hpp"
 

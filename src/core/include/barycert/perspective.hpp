@@ -29,6 +29,11 @@
 ///     const double shade = perspective_value(window, pixel, red).value().value;
 #pragma once
 
+#include <array>
+#include <span>
+
+#include "barycert/result.hpp"
+#include "barycert/simplex.hpp"
 #include "barycert/weights.hpp"
 
 namespace barycert {

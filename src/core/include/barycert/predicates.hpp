@@ -55,6 +55,8 @@
 #pragma once
 
 #include <bit>
+#include <cstdint>
+#include <span>
 
 #include "barycert/result.hpp"
 #include "barycert/simplex.hpp"

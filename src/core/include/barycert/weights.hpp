@@ -33,7 +33,13 @@
 ///     const Gradient slope = gradient(Simplex::triangle, triangle, values).value();
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <span>
+
 #include "barycert/predicates.hpp"
+#include "barycert/result.hpp"
+#include "barycert/simplex.hpp"
 
 namespace barycert {
 

@@ -13,7 +13,20 @@
 ///     2}}); write_figure("triangle.svg", figure, {}).value();
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "barycert/raster.hpp"
+#include "barycert/result.hpp"
 #include "barycert/scene.hpp"
+#include "barycert/weights.hpp"
 
 namespace barycert {
 

@@ -22,6 +22,14 @@
 ///     write_png("dot.png", image).value();
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "barycert/result.hpp"
 #include "barycert/weights.hpp"
 
 namespace barycert {

@@ -18,7 +18,15 @@
 ///     write_png("scene.png", render(scene).value()).value();
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "barycert/raster.hpp"
+#include "barycert/result.hpp"
+#include "barycert/weights.hpp"
 
 namespace barycert {
 

@@ -11,8 +11,16 @@
 ///     while (map.read(1000, rows).value() != 0) rows = {};
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+
 #include "barycert/locator.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
 #include "barycert/surface.hpp"
+#include "barycert/table.hpp"
 
 namespace barycert {
 

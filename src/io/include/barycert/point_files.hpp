@@ -35,6 +35,7 @@
 #include <string>
 #include <vector>
 
+#include "barycert/mesh.hpp"
 #include "barycert/result.hpp"
 #include "barycert/table.hpp"
 

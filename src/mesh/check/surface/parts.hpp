@@ -1,9 +1,18 @@
 /// A surface as it is checked: its proper triangles in the order of space, and what is found of them.
 #pragma once
 
+#include <array>
+#include <vector>
+
+#include "barycert/check_results.hpp"
+#include "barycert/defect.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/plc.hpp"
+#include "barycert/surface.hpp"
+#include "barycert/surface_report.hpp"
 #include "core/base/disjoint_sets.hpp"
 #include "mesh/check/stages.hpp"
-#include "mesh/index/open_sheets.hpp"
+#include "mesh/index/cell_index.hpp"
 #include "mesh/index/ridges.hpp"
 #include "mesh/index/triangles.hpp"
 

@@ -1,9 +1,28 @@
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <map>
+#include <optional>
+#include <vector>
 
+#include "barycert/defect.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/plc.hpp"
+#include "barycert/surface_report.hpp"
+#include "core/base/disjoint_sets.hpp"
+#include "core/base/vectors.hpp"
 #include "core/whole_points.hpp"
+#include "mesh/check/stages.hpp"
 #include "mesh/check/surface/parts.hpp"
+#include "mesh/index/bins.hpp"
+#include "mesh/index/cell_tree.hpp"
 #include "mesh/index/crossing.hpp"
+#include "mesh/index/exact_volumes.hpp"
+#include "mesh/index/facet_contact.hpp"
+#include "mesh/index/ridges.hpp"
+#include "mesh/threads/arena.hpp"
 
 namespace barycert::check {
 namespace {

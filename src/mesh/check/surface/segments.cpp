@@ -1,11 +1,28 @@
 // Checks the parts of a PLC that are no triangles: segments and nodes of its own, and how flat its facets are.
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
 #include <map>
+#include <numeric>
 #include <set>
+#include <span>
+#include <vector>
 
+#include "barycert/defect.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/plc.hpp"
+#include "barycert/predicates.hpp"
 #include "core/base/finite.hpp"
 #include "mesh/check/plc_facet.hpp"
+#include "mesh/check/stages.hpp"
 #include "mesh/check/surface/parts.hpp"
+#include "mesh/index/box_tree.hpp"
+#include "mesh/index/cell_index.hpp"
+#include "mesh/index/cell_tree.hpp"
+#include "mesh/index/facet_contact.hpp"
+#include "mesh/index/ridges.hpp"
 
 namespace barycert::check {
 namespace {

@@ -2,10 +2,23 @@
 
 #include <tbb/task_group.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
 
+#include "barycert/certificate.hpp"
+#include "barycert/check.hpp"
+#include "barycert/defect.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/plc.hpp"
+#include "barycert/surface.hpp"
+#include "mesh/check/stages.hpp"
 #include "mesh/check/surface/parts.hpp"
+#include "mesh/facets/facet_triangles.hpp"
 #include "mesh/facets/plc_triangles.hpp"
+#include "mesh/threads/arena.hpp"
 
 namespace barycert {
 

@@ -1,7 +1,23 @@
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <map>
+#include <span>
+#include <utility>
+#include <vector>
 
+#include "barycert/defect.hpp"
+#include "barycert/mesh.hpp"
+#include "core/base/disjoint_sets.hpp"
 #include "core/base/lists.hpp"
+#include "mesh/check/stages.hpp"
 #include "mesh/check/surface/parts.hpp"
+#include "mesh/index/cell_index.hpp"
+#include "mesh/index/open_sheets.hpp"
+#include "mesh/index/ridges.hpp"
+#include "mesh/index/triangles.hpp"
+#include "mesh/threads/arena.hpp"
 
 namespace barycert::check {
 

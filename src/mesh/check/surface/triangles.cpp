@@ -1,4 +1,20 @@
+#include "mesh/index/triangles.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "barycert/defect.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/surface.hpp"
+#include "mesh/check/stages.hpp"
 #include "mesh/check/surface/parts.hpp"
+#include "mesh/index/cell_index.hpp"
+#include "mesh/index/facet_contact.hpp"
+#include "mesh/index/open_sheets.hpp"
 
 namespace barycert::check {
 

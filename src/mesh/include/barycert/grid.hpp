@@ -8,7 +8,15 @@
 ///     const Table rows = resample(Sampler::build(mesh).value(), grid).value();
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
 #include "barycert/sampler.hpp"
+#include "barycert/table.hpp"
 
 namespace barycert {
 

@@ -39,9 +39,18 @@
 ///     const Mesh::Index cell = locator.locate(point).value().cell;  // -1 outside
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
+#include <string>
+#include <string_view>
 
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
+#include "barycert/simplex.hpp"
 #include "barycert/table.hpp"
 
 namespace barycert {

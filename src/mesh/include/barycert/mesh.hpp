@@ -13,7 +13,12 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <span>
+#include <string>
+#include <variant>
+#include <vector>
 
 #include "barycert/result.hpp"
 

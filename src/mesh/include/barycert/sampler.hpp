@@ -45,9 +45,18 @@
 ///     const Table rows = sampler.sample(std::vector<double>{0.2, 0.2}).value();  // rows.values[0] is T there
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
 
 #include "barycert/locator.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
+#include "barycert/table.hpp"
 #include "barycert/weights.hpp"
 
 namespace barycert {

@@ -42,6 +42,15 @@
 ///     const Surface all = boundary(mesh).value();                             // four
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
+#include "barycert/simplex.hpp"
 #include "barycert/table.hpp"
 
 namespace barycert {

@@ -35,7 +35,17 @@
 ///     const bool inside = locator.locate(point).value().winding != 0;
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
 #include "barycert/locator.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
+#include "barycert/simplex.hpp"
 #include "barycert/surface.hpp"
 
 namespace barycert {

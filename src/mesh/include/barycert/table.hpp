@@ -11,6 +11,15 @@
 ///     const bool inside = rows.cells[0] >= 0 && rows.features[1] == Feature::outside;
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
 #include "barycert/mesh.hpp"
 #include "barycert/simplex.hpp"
 

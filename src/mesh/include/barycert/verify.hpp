@@ -22,7 +22,18 @@
 ///     const Verdicts verdicts = Verifier(sampler, {}).verify({.points = points, .values = values}).value();
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "barycert/locator.hpp"
+#include "barycert/result.hpp"
 #include "barycert/sampler.hpp"
+#include "barycert/table.hpp"
 
 namespace barycert {
 

@@ -1,8 +1,18 @@
 #include "mesh/locate/mapped/boundary.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <numeric>
+#include <span>
+#include <utility>
+#include <vector>
 
+#include "barycert/mesh.hpp"
+#include "mesh/index/box_tree.hpp"
+#include "mesh/index/cell_maps.hpp"
+#include "mesh/locate/mapped/cell_sides.hpp"
 #include "mesh/locate/mapped/square_parts.hpp"
 
 namespace barycert::locate {

@@ -6,8 +6,14 @@
 /// degree of the map is not 0 anywhere around), they would fill its surroundings.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "barycert/mesh.hpp"
 #include "core/base/lists.hpp"
 #include "mesh/index/box_tree.hpp"
+#include "mesh/index/cell_maps.hpp"
 #include "mesh/locate/mapped/cell_sides.hpp"
 
 namespace barycert::locate {

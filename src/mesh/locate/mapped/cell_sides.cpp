@@ -1,11 +1,20 @@
 #include "mesh/locate/mapped/cell_sides.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <span>
+#include <utility>
+#include <vector>
 
+#include "barycert/mesh.hpp"
+#include "core/isoparametric/patch.hpp"
 #include "core/vtk_cell.hpp"
 #include "mesh/adjacency.hpp"
-#include "mesh/pulling.hpp"
+#include "mesh/cell_types.hpp"
+#include "mesh/index/cell_maps.hpp"
 
 namespace barycert::locate {
 

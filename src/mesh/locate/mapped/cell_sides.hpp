@@ -4,7 +4,17 @@
 /// parameters and all that is computed from them are the same bits from every cell.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "barycert/mesh.hpp"
+#include "core/isoparametric/inverse.hpp"
 #include "core/isoparametric/patch.hpp"
+#include "core/shape_functions.hpp"
 #include "mesh/index/cell_maps.hpp"
 
 namespace barycert::locate {

@@ -1,11 +1,36 @@
 #include "mesh/locate/mapped/mapped_cells.hpp"
 
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "barycert/locator.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/predicates.hpp"
+#include "barycert/simplex.hpp"
 #include "core/base/finite.hpp"
+#include "core/isoparametric/inverse.hpp"
+#include "core/isoparametric/lanes.hpp"
+#include "core/shape_functions.hpp"
 #include "core/vtk_cell.hpp"
 #include "mesh/adjacency.hpp"
+#include "mesh/index/box_tree.hpp"
+#include "mesh/index/cell_index.hpp"
+#include "mesh/index/cell_maps.hpp"
+#include "mesh/locate/lanes.hpp"
+#include "mesh/locate/lazy.hpp"
 #include "mesh/locate/mapped/boundary.hpp"
 #include "mesh/mid_edges.hpp"
 #include "mesh/pulling.hpp"
+#include "mesh/threads/arena.hpp"
 
 namespace barycert::locate {
 

@@ -19,17 +19,29 @@
 /// proof is taken as its parts, or straight, and counted.
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
 #include <unordered_map>
+#include <utility>
+#include <vector>
 
 #include "barycert/locator.hpp"
+#include "barycert/mesh.hpp"
 #include "barycert/predicates.hpp"
+#include "barycert/simplex.hpp"
 #include "core/base/random.hpp"
+#include "core/isoparametric/inverse.hpp"
 #include "core/isoparametric/lanes.hpp"
-#include "mesh/index/cell_maps.hpp"
 #include "mesh/index/box_tree.hpp"
+#include "mesh/index/cell_index.hpp"
+#include "mesh/index/cell_maps.hpp"
+#include "mesh/index/warped_sides.hpp"
 #include "mesh/locate/lanes.hpp"
 #include "mesh/locate/lazy.hpp"
-#include "mesh/index/warped_sides.hpp"
 
 namespace barycert::locate {
 

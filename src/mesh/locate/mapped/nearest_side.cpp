@@ -1,8 +1,27 @@
 #include "mesh/locate/mapped/nearest_side.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdlib>
+#include <limits>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "barycert/locator.hpp"
+#include "barycert/mesh.hpp"
+#include "core/isoparametric/near_patch.hpp"
+#include "core/isoparametric/patch.hpp"
+#include "mesh/index/box_tree.hpp"
 #include "mesh/locate/locator_data.hpp"
 #include "mesh/locate/mapped/boundary.hpp"
+#include "mesh/locate/mapped/cell_sides.hpp"
 #include "mesh/locate/mapped/square_parts.hpp"
+#include "mesh/locate/near_bounds.hpp"
+#include "mesh/locate/near_feature.hpp"
+#include "mesh/locate/nearest.hpp"
 
 namespace barycert::locate {
 

@@ -10,6 +10,9 @@
 /// on a facet, then the one with the lowest nodes, then with the lowest parameters.
 #pragma once
 
+#include <memory>
+#include <utility>
+
 #include "barycert/locator.hpp"
 #include "core/isoparametric/near_patch.hpp"
 #include "mesh/locate/mapped/cell_sides.hpp"

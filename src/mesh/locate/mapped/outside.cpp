@@ -1,5 +1,17 @@
 // Values at points outside: at the nearest point of a side, or of a cell's function continued beyond it.
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "barycert/mesh.hpp"
+#include "core/isoparametric/inverse.hpp"
+#include "core/isoparametric/patch.hpp"
+#include "core/shape_functions.hpp"
+#include "mesh/index/cell_maps.hpp"
 #include "mesh/locate/mapped/mapped_cells.hpp"
 #include "mesh/locate/mapped/nearest_side.hpp"
 

@@ -1,13 +1,32 @@
 // The sides of cells whose maps are products: who is on which side of them.
 
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "barycert/mesh.hpp"
+#include "barycert/predicates.hpp"
+#include "barycert/simplex.hpp"
 #include "core/base/vectors.hpp"
 #include "core/isoparametric/ball.hpp"
+#include "core/shape_functions.hpp"
 #include "core/vtk_cell.hpp"
+#include "mesh/cell_types.hpp"
+#include "mesh/index/box_tree.hpp"
+#include "mesh/index/cell_maps.hpp"
 #include "mesh/index/crossing.hpp"
 #include "mesh/index/facet_contact.hpp"
+#include "mesh/index/warped_sides.hpp"
 #include "mesh/locate/mapped/mapped_cells.hpp"
 #include "mesh/pulling.hpp"
-#include "mesh/index/warped_sides.hpp"
+#include "mesh/threads/arena.hpp"
 
 namespace barycert::locate {
 

@@ -1,5 +1,17 @@
 #include "mesh/locate/mapped/square_parts.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdlib>
+#include <vector>
+
+#include "core/isoparametric/patch.hpp"
+#include "mesh/index/box_tree.hpp"
+#include "mesh/locate/near_bounds.hpp"
+#include "mesh/locate/near_feature.hpp"
+
 namespace barycert::locate {
 
 namespace iso = core::isoparametric;

@@ -9,9 +9,14 @@
 /// roundings, and 2^10 where parts are cut 64 times: 2^-40 of that bound holds for all.
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <vector>
+
 #include "core/isoparametric/patch.hpp"
 #include "mesh/index/box_tree.hpp"
 #include "mesh/locate/near_bounds.hpp"
+#include "mesh/locate/near_feature.hpp"
 
 namespace barycert::locate {
 

@@ -1,8 +1,19 @@
 // Where a segment meets the triangles, in their exact order along it.
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
 #include "barycert/predicates.hpp"
+#include "barycert/simplex.hpp"
+#include "barycert/surface_locator.hpp"
 #include "core/base/vectors.hpp"
 #include "core/whole_points.hpp"
+#include "mesh/index/bins.hpp"
+#include "mesh/index/cell_tree.hpp"
+#include "mesh/locate/near_feature.hpp"
 #include "mesh/locate/surface/surface_data.hpp"
 
 namespace barycert::locate {

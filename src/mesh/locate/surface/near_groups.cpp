@@ -3,10 +3,16 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <vector>
 
+#include "mesh/index/cell_index.hpp"
 #include "mesh/locate/surface/surface_data.hpp"
+#include "mesh/threads/arena.hpp"
 
 namespace barycert::locate {
 namespace {

@@ -12,7 +12,12 @@
 // The distance of p from a box takes a difference an axis, squares and sums: a part 4 u of itself, and 8 is used.
 #include "mesh/locate/surface/surface_data.hpp"
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "mesh/locate/surface/nearest_lanes.cpp"

@@ -1,7 +1,24 @@
 // The nearest triangle: floating point leaves those that it cannot tell apart, and says what is certain of them; the
 // rest is decided and rounded exactly.
 
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "barycert/locator.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/surface.hpp"
+#include "barycert/surface_locator.hpp"
 #include "mesh/locate/near_bounds.hpp"
+#include "mesh/locate/near_feature.hpp"
+#include "mesh/locate/nearest.hpp"
 #include "mesh/locate/surface/surface_data.hpp"
 
 namespace barycert::locate {

@@ -1,9 +1,16 @@
-#include "mesh/locate/surface/surface_data.hpp"
-
+#include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
 
 #include "core/base/disjoint_sets.hpp"
 #include "core/base/vectors.hpp"
+#include "mesh/index/bins.hpp"
+#include "mesh/index/cell_index.hpp"
+#include "mesh/locate/surface/surface_data.hpp"
+#include "mesh/threads/arena.hpp"
 
 namespace barycert::locate {
 

@@ -10,8 +10,23 @@
 //
 // A triangle without an area crosses no ray, but its edges join others: it counts as long as they are three.
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <numeric>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "barycert/mesh.hpp"
+#include "barycert/surface_locator.hpp"
+#include "core/base/disjoint_sets.hpp"
+#include "core/integer.hpp"
 #include "mesh/index/exact_volumes.hpp"
 #include "mesh/index/open_sheets.hpp"
+#include "mesh/index/ridges.hpp"
+#include "mesh/index/triangles.hpp"
 #include "mesh/locate/surface/surface_data.hpp"
 
 namespace barycert::locate {

@@ -1,7 +1,18 @@
 // On a triangle, inside or outside.
+#include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 
+#include "barycert/simplex.hpp"
+#include "barycert/surface_locator.hpp"
+#include "mesh/index/bins.hpp"
+#include "mesh/index/cell_tree.hpp"
 #include "mesh/index/crossing.hpp"
+#include "mesh/index/facet_contact.hpp"
+#include "mesh/locate/near_feature.hpp"
 #include "mesh/locate/surface/surface_data.hpp"
 
 namespace barycert::locate {

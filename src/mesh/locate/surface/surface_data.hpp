@@ -1,8 +1,21 @@
 /// All that a SurfaceLocator keeps.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "barycert/mesh.hpp"
+#include "barycert/simplex.hpp"
+#include "barycert/surface.hpp"
 #include "barycert/surface_locator.hpp"
+#include "mesh/index/bins.hpp"
+#include "mesh/index/cell_index.hpp"
 #include "mesh/index/cell_tree.hpp"
+#include "mesh/index/facet_contact.hpp"
+#include "mesh/index/ridges.hpp"
 #include "mesh/index/triangles.hpp"
 #include "mesh/locate/lazy.hpp"
 #include "mesh/locate/nearest.hpp"

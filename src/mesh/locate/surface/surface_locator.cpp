@@ -1,7 +1,31 @@
+#include "barycert/surface_locator.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <numeric>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "barycert/environment.hpp"
+#include "barycert/locator.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
+#include "barycert/surface.hpp"
 #include "barycert/weights.hpp"
+#include "core/base/finite.hpp"
+#include "mesh/index/cell_tree.hpp"
+#include "mesh/index/facet_contact.hpp"
+#include "mesh/index/triangles.hpp"
 #include "mesh/locate/batch.hpp"
+#include "mesh/locate/near_feature.hpp"
 #include "mesh/locate/surface/surface_data.hpp"
+#include "mesh/threads/arena.hpp"
 
 namespace barycert {
 namespace locate {

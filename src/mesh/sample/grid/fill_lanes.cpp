@@ -1,6 +1,14 @@
 // Cells, a vector of them at a time, fill in the points of a grid that they hold. Cells with few points in their boxes
 // look at all of them (fill_points-inl.hpp); others find where each row enters and leaves them (fill_rows-inl.hpp).
 #include "mesh/sample/grid/fill_lanes.hpp"
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+#include "barycert/simplex.hpp"
+#include "barycert/weights.hpp"
+#include "mesh/index/cell_index.hpp"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "mesh/sample/grid/fill_lanes.cpp"

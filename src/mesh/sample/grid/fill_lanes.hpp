@@ -1,7 +1,17 @@
 /// Cells fill in the points of a grid that they hold, on SIMD lanes.
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "barycert/mesh.hpp"
+#include "barycert/simplex.hpp"
 #include "barycert/table.hpp"
+#include "barycert/weights.hpp"
+#include "mesh/index/cell_index.hpp"
 #include "mesh/sample/points/value_lanes.hpp"
 
 namespace barycert::sample {

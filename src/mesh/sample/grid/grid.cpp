@@ -1,9 +1,17 @@
 #include "barycert/grid.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <utility>
 
 #include "barycert/environment.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
 #include "core/base/strict_math.hpp"
 #include "core/base/text.hpp"
 #include "mesh/index/box_tree.hpp"

@@ -1,11 +1,26 @@
 #include <tbb/parallel_pipeline.h>
 
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
 #include "barycert/environment.hpp"
 #include "barycert/grid.hpp"
+#include "barycert/result.hpp"
+#include "barycert/sampler.hpp"
+#include "barycert/table.hpp"
+#include "mesh/index/cell_index.hpp"
 #include "mesh/sample/grid/fill_lanes.hpp"
 #include "mesh/sample/grid/slab_cells.hpp"
 #include "mesh/sample/grid/slab_sampler.hpp"
 #include "mesh/sample/points/chunk_sampler.hpp"
+#include "mesh/sample/points/sampler_data.hpp"
+#include "mesh/threads/arena.hpp"
 
 namespace barycert {
 namespace sample {

@@ -11,10 +11,19 @@
 #include <vector>
 
 #include "barycert/grid.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/predicates.hpp"
+#include "barycert/sampler.hpp"
+#include "barycert/simplex.hpp"
+#include "barycert/table.hpp"
+#include "barycert/weights.hpp"
+#include "mesh/index/cell_index.hpp"
 #include "mesh/locate/cell_signs.hpp"
 #include "mesh/sample/grid/fill_lanes.hpp"
 #include "mesh/sample/grid/slab_cells.hpp"
 #include "mesh/sample/points/chunk_sampler.hpp"
+#include "mesh/sample/points/sampler_data.hpp"
+#include "mesh/sample/points/value_lanes.hpp"
 
 namespace barycert::sample {
 

@@ -1,9 +1,32 @@
 #include "mesh/sample/points/chunk_sampler.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <span>
+#include <vector>
+
+#include "barycert/locator.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/sampler.hpp"
+#include "barycert/simplex.hpp"
+#include "barycert/weights.hpp"
 #include "core/base/finite.hpp"
 #include "core/blocks.hpp"
+#include "core/isoparametric/inverse.hpp"
+#include "core/lanes.hpp"
+#include "mesh/index/cell_index.hpp"
+#include "mesh/locate/lanes.hpp"
+#include "mesh/locate/mapped/mapped_cells.hpp"
 #include "mesh/locate/mapped/nearest_side.hpp"
+#include "mesh/locate/near_feature.hpp"
 #include "mesh/sample/points/near_piece.hpp"
+#include "mesh/sample/points/sampler_data.hpp"
+#include "mesh/sample/points/value_lanes.hpp"
 #include "mesh/sample/quantity/quantities.hpp"
 
 namespace barycert::sample {

@@ -1,7 +1,25 @@
 /// Rows for a chunk of points whose owners are known.
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "barycert/locator.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
+#include "barycert/sampler.hpp"
+#include "barycert/simplex.hpp"
+#include "barycert/table.hpp"
+#include "barycert/weights.hpp"
+#include "mesh/index/cell_index.hpp"
 #include "mesh/locate/finder.hpp"
+#include "mesh/locate/lanes.hpp"
+#include "mesh/locate/mapped/mapped_cells.hpp"
 #include "mesh/sample/points/sampler_data.hpp"
 
 namespace barycert::locate {

@@ -1,7 +1,27 @@
 // Fields of a grid whose cells are not listed (Mesh::axes).
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "barycert/mesh.hpp"
+#include "barycert/predicates.hpp"
+#include "barycert/result.hpp"
+#include "barycert/sampler.hpp"
+#include "barycert/simplex.hpp"
+#include "barycert/table.hpp"
+#include "barycert/weights.hpp"
+#include "core/base/finite.hpp"
+#include "core/grid_lanes.hpp"
+#include "core/isoparametric/inverse.hpp"
+#include "core/shape_functions.hpp"
 #include "core/vtk_cell.hpp"
 #include "mesh/locate/batch.hpp"
 #include "mesh/sample/points/chunk_sampler.hpp"
+#include "mesh/sample/points/sampler_data.hpp"
 
 namespace barycert::sample {
 namespace {

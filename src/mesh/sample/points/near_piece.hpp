@@ -3,8 +3,11 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 
-#include "barycert/locator.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/simplex.hpp"
 #include "barycert/weights.hpp"
 #include "mesh/locate/near_feature.hpp"
 

@@ -1,9 +1,34 @@
+#include "barycert/sampler.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "barycert/environment.hpp"
+#include "barycert/locator.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
+#include "barycert/simplex.hpp"
+#include "barycert/table.hpp"
 #include "core/base/finite.hpp"
 #include "mesh/consistency.hpp"
+#include "mesh/index/cell_index.hpp"
 #include "mesh/locate/batch.hpp"
+#include "mesh/locate/lanes.hpp"
+#include "mesh/locate/mapped/mapped_cells.hpp"
+#include "mesh/locate/sorted_points.hpp"
 #include "mesh/sample/points/chunk_sampler.hpp"
+#include "mesh/sample/points/sampler_data.hpp"
+#include "mesh/sample/points/value_lanes.hpp"
 #include "mesh/sample/quantity/quantities.hpp"
+#include "mesh/threads/arena.hpp"
 
 namespace barycert {
 namespace sample {

@@ -1,10 +1,23 @@
 /// All that a Sampler keeps.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <deque>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
 
+#include "barycert/locator.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
 #include "barycert/sampler.hpp"
+#include "barycert/simplex.hpp"
+#include "barycert/table.hpp"
+#include "mesh/index/cell_index.hpp"
 #include "mesh/locate/locator_data.hpp"
+#include "mesh/locate/pool.hpp"
 #include "mesh/sample/points/value_lanes.hpp"
 
 namespace barycert::sample {

@@ -1,4 +1,8 @@
 #include "mesh/sample/points/value_lanes.hpp"
+#include <cstddef>
+#include <cstdint>
+#include "barycert/simplex.hpp"
+#include "barycert/weights.hpp"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "mesh/sample/points/value_lanes.cpp"

@@ -1,7 +1,13 @@
 /// Values of many points in their cells at once, on SIMD lanes.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "barycert/simplex.hpp"
 #include "barycert/weights.hpp"
+#include "mesh/index/cell_index.hpp"
 #include "mesh/locate/lanes.hpp"
 #include "mesh/locate/names.hpp"
 

@@ -1,9 +1,19 @@
-#include "mesh/sample/quantity/quantities.hpp"
-
 #include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
+#include "barycert/error_codes.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
+#include "barycert/sampler.hpp"
+#include "barycert/table.hpp"
 #include "core/base/nearest_name.hpp"
 #include "core/base/text.hpp"
+#include "mesh/sample/quantity/quantities.hpp"
 
 namespace barycert::sample {
 namespace {

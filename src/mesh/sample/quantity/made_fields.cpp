@@ -1,12 +1,23 @@
-#include "mesh/sample/quantity/quantities.hpp"
-
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <deque>
+#include <limits>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "barycert/environment.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
+#include "barycert/sampler.hpp"
+#include "barycert/simplex.hpp"
+#include "barycert/weights.hpp"
 #include "core/base/strict_math.hpp"
 #include "core/base/text.hpp"
 #include "mesh/consistency.hpp"
+#include "mesh/sample/quantity/quantities.hpp"
 #include "mesh/threads/arena.hpp"
 
 namespace barycert::sample {

@@ -26,6 +26,10 @@
 // 2^336: the underflow there is below 2^-1070, the bound at least 2^-599 / 2^336. NaN ends in a comparison that is
 // false, an infinite value in F.
 #include "mesh/sample/quantity/mean_lanes.hpp"
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include "barycert/mesh.hpp"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "mesh/sample/quantity/mean_lanes.cpp"

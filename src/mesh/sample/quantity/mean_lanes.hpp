@@ -1,6 +1,10 @@
 /// Means over the cells of many nodes at once, on SIMD lanes: correctly rounded where that is certain.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
 #include "barycert/mesh.hpp"
 #include "core/base/lists.hpp"
 

@@ -1,7 +1,15 @@
+#include "barycert/mesh.hpp"
+#include "core/base/lists.hpp"
+#include "core/integer.hpp"
 #include "mesh/sample/quantity/quantities.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
 
 #include "barycert/environment.hpp"
 #include "core/numerators-inl.hpp"

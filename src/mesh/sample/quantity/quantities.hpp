@@ -2,8 +2,16 @@
 /// sampler.hpp.
 #pragma once
 
+#include <cstddef>
 #include <deque>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
 
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
 #include "barycert/sampler.hpp"
 
 namespace barycert::sample {

@@ -1,9 +1,26 @@
-#include "barycert/sampler.hpp"
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "barycert/environment.hpp"
+#include "barycert/locator.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
+#include "barycert/sampler.hpp"
+#include "barycert/simplex.hpp"
+#include "barycert/table.hpp"
+#include "barycert/weights.hpp"
 #include "core/base/finite.hpp"
+#include "core/shape_functions.hpp"
 #include "mesh/locate/batch.hpp"
+#include "mesh/locate/mapped/mapped_cells.hpp"
 #include "mesh/locate/mapped/nearest_side.hpp"
+#include "mesh/locate/near_feature.hpp"
 #include "mesh/sample/points/near_piece.hpp"
 
 namespace barycert {
