@@ -129,6 +129,11 @@ bool has(const Format& format, std::string_view suffix) {
     return suffix.starts_with('.') && format.suffixes.find(" " + std::string(suffix) + " ") != std::string_view::npos;
 }
 
+/// As the table has it; empty if the path has none.
+std::string known_suffix(std::string_view path) {
+    return lower(suffix_of(std::string(without_gz(path))));
+}
+
 /// Suffixes of the formats with that use, in the order of the table.
 std::vector<std::string_view> suffixes_with(Uses Format::*uses, Use use) {
     std::vector<std::string_view> found;
@@ -174,8 +179,14 @@ const Format* format_with(std::string_view suffix) {
 }
 
 const Format* format_of(std::string_view path) {
-    const std::string suffix = suffix_of(std::string(without_gz(path)));
-    return suffix.empty() ? nullptr : format_with(lower(suffix));
+    return format_with(known_suffix(path));
+}
+
+const Format* format_of_mesh(std::string_view path) {
+    const std::string suffix = known_suffix(path);
+    const auto* const found =
+        std::ranges::find_if(all, [&](const Format& format) { return format.is_mesh && has(format, suffix); });
+    return found == all.end() ? format_with(suffix) : found;
 }
 
 const Format* format_that_begins(std::string_view head) {

@@ -92,8 +92,7 @@ struct Format {
     bool is_mesh = true;
 };
 
-/// Those with readers or writers here first; then all others that are known, in the order in which they are looked for:
-/// of suffixes that several have the likelier one stands first.
+/// Those with readers or writers here first; then all others that are known, in the order in which they are looked for.
 std::span<const Format> formats();
 
 /// By a suffix with its dot, in lower case; nullptr if none has it.
@@ -101,6 +100,9 @@ const Format* format_with(std::string_view suffix);
 
 /// By the end of the path but for .gz, in any case; nullptr if it has no suffix or an unknown one.
 const Format* format_of(std::string_view path);
+
+/// The same where a mesh is wanted: of several with the suffix, as .dat is, the first that is one.
+const Format* format_of_mesh(std::string_view path);
 
 /// The format whose first bytes these are; nullptr if they could be anything.
 const Format* format_that_begins(std::string_view head);

@@ -134,7 +134,7 @@ std::string_view first_word(std::string_view text, char comment) {
 }
 
 const Format* other_format_by_suffix(std::string_view path) {
-    const Format* const format = base::format_of(path);
+    const Format* const format = base::format_of_mesh(path);
     return format == nullptr || format->what.empty() ? nullptr : format;
 }
 

@@ -30,6 +30,10 @@ TEST(Formats, AreKnownByTheEndOfAName) {
 
 TEST(Formats, OfASuffixTheFirstOneCounts) {
     EXPECT_EQ(kind_of("a.dat"), FormatKind::csv) << "Tecplot's, too";
+    EXPECT_STREQ(format_of_mesh("a.dat")->meshio, "tecplot");
+    EXPECT_EQ(format_of_mesh("a.txt")->kind, FormatKind::csv);
+    EXPECT_EQ(format_of_mesh("a.vtu")->kind, FormatKind::vtu);
+    EXPECT_EQ(format_of_mesh("part.1"), nullptr);
     std::map<std::string, int> times;
     for (const Format& format : formats()) {
         ASSERT_TRUE(format.suffixes.starts_with(' ') && format.suffixes.ends_with(' ')) << format.suffixes;

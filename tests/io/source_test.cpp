@@ -39,7 +39,9 @@ TEST(Formats, Sinks) {
                  {0, "cannot write rows in the format of that suffix",
                   ".csv, .npy or .vtu, or - for CSV on the standard output", "a format for points alone", nullptr});
     expect_error(open_table("p.txt", {}), "p.txt",
-                 {0, "cannot write rows in the format of that suffix", nullptr, "\".txt\"", nullptr});
+                 {0, "cannot write rows in the format of that suffix", nullptr, "a format for points alone", nullptr});
+    expect_error(open_table("p.odt", {}), "p.odt",
+                 {0, "cannot write rows in the format of that suffix", nullptr, "\".odt\"", nullptr});
     expect_error(open_table("p.csv", {.dimension = 1}), "p.csv",
                  {0, "points of rows can have 2 or 3 coordinates", "2 or 3", "1", nullptr});
 }
