@@ -13,7 +13,8 @@ set(BARYCERT_STANDARD_HEADERS <algorithm> <array> <atomic> <cmath> <cstdint> <fi
 # barycert_precompile(TARGET KIND): what all targets of a kind share: LIBRARY, COLD_LIBRARY, PROGRAM, TEST. Sources with options of their
 # own read headers themselves. Call it from the folder of the target, at its end.
 function(barycert_precompile target kind)
-  if(NOT BARYCERT_PRECOMPILE)
+  # Clang wants every macro of a target known when headers are precompiled: they cannot be shared.
+  if(NOT BARYCERT_PRECOMPILE OR NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     return()
   endif()
   get_target_property(sources ${target} SOURCES)
@@ -23,11 +24,9 @@ function(barycert_precompile target kind)
       set_property(SOURCE ${source} PROPERTY SKIP_PRECOMPILE_HEADERS ON)
     endif()
   endforeach()
-  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    # What GCC 12 imagines in inlined code of the standard library (as its bug 105651) it tells of headers that are not the system's
-    # any more.
-    target_compile_options(${target} PRIVATE -Wno-array-bounds -Wno-free-nonheap-object -Wno-maybe-uninitialized -Wno-stringop-overread)
-  endif()
+  # What GCC 12 imagines in inlined code of the standard library (as its bug 105651) it tells of headers that are not the system's any
+  # more.
+  target_compile_options(${target} PRIVATE -Wno-array-bounds -Wno-free-nonheap-object -Wno-maybe-uninitialized -Wno-stringop-overread)
   get_target_property(links ${target} LINK_LIBRARIES)
   if(links MATCHES "CGAL")
     # It has options of its own, and headers are taken for precompiled only where options are those of then.
