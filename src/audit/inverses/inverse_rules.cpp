@@ -1,6 +1,7 @@
 // Newton's method for the inverse maps of cells as it is in use: in plain double, with its tolerances.
 
 #include "barycert/inverse_rules.hpp"
+#include "audit/inverses/reference.hpp"  // IWYU pragma: keep
 
 #include <algorithm>
 #include <array>

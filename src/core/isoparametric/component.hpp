@@ -13,6 +13,7 @@
 
 #include "core/isoparametric/ball.hpp"
 #include "core/isoparametric/places.hpp"
+#include "core/isoparametric/small_matrix.hpp"
 #include "core/shape_functions.hpp"
 
 namespace barycert::core::isoparametric {

@@ -12,6 +12,7 @@
 #include "barycert/plc.hpp"
 #include "barycert/predicates.hpp"
 #include "core/base/vectors.hpp"
+#include "mesh/check/stages.hpp"  // IWYU pragma: keep
 #include "mesh/facets/facet_triangles.hpp"
 #include "mesh/index/box_tree.hpp"
 
