@@ -15,8 +15,8 @@
 // Before the compiler's intrinsics, which Clang compiles to arithmetic.
 #include "core/base/strict_math.hpp"
 
-// Built for this machine alone (BARYCERT_SIMD in cmake/BarycertFlags.cmake), of two the one that it does not use is left
-// out. Results are the same on any other, of those without it slower.
+// Built for this machine alone (BARYCERT_SIMD in cmake/BarycertFlags.cmake), of two the one that it does not use is
+// left out. Results are the same on any other, of those without it slower.
 #if defined(BARYCERT_WITHOUT_AVX2)
 #define BARYCERT_NOT_USED HWY_AVX2
 #elif defined(BARYCERT_WITHOUT_AVX512)
@@ -25,9 +25,8 @@
 #define BARYCERT_NOT_USED 0
 #endif
 
-#define HWY_DISABLED_TARGETS                                                                                   \
-    (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV | \
-     BARYCERT_NOT_USED)
+#define HWY_DISABLED_TARGETS \
+    (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV | BARYCERT_NOT_USED)
 
 // On 64-bit ARM one target is left, NEON, which every such processor has: there is nothing to choose at run time. Told
 // so, Highway leaves out attributes for that target (instructions for AES, which nothing here uses), by which GCC could

@@ -1,7 +1,7 @@
 // The inverse of a cell's map continued beyond it: against the same way followed in many small steps in long double,
 // with shape functions written apart; values against Newton's method in 100 digits from what that finds.
-#include "core/isoparametric/cell_polynomial.hpp"
 #include "core/isoparametric/continuation.hpp"
+#include "core/isoparametric/cell_polynomial.hpp"
 
 #include <gtest/gtest.h>
 

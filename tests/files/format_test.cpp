@@ -79,7 +79,7 @@ TEST(Formats, AreThoseOfThePage) {
     std::stringstream page;
     page << std::ifstream(std::string(BARYCERT_DATA_DIR) + "/../doc/formats.md").rdbuf();
     EXPECT_NE(page.str().find("\n" + formats_table()), std::string::npos) << "doc/formats.md should have\n"
-                                                                         << formats_table();
+                                                                          << formats_table();
 }
 
 }  // namespace

@@ -28,7 +28,8 @@ TEST(Formats, Sources) {
                  {0, "cannot read the file", nullptr, "No such file or directory", nullptr});
     expect_error(open_points("p.odt", 3), "p.odt",
                  {0, "unknown file suffix",
-                  "points (.csv .txt .dat .xyz .tsv .npy .node .vtu .vtk .vtp .vti .vtr .vts .pvtu .pvtp .vtm .vtpd .vtpc .pvd .series, - for "
+                  "points (.csv .txt .dat .xyz .tsv .npy .node .vtu .vtk .vtp .vti .vtr .vts .pvtu .pvtp .vtm .vtpd "
+                  ".vtpc .pvd .series, - for "
                   "CSV from stdin) or a mesh",
                   "\".odt\"", nullptr});
     expect_error(open_points("p.csv", 4), "p.csv", {0, "points can have 2 or 3 coordinates", "2 or 3", "4", nullptr});

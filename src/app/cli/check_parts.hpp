@@ -1,5 +1,5 @@
-/// What barycert has of `barycert check` (check_whole.cpp), and barycert-check only a part of (check_alone.cpp), so that
-/// it is built in less time.
+/// What barycert has of `barycert check` (check_whole.cpp), and barycert-check only a part of (check_alone.cpp), so
+/// that it is built in less time.
 #pragma once
 
 #include <string>

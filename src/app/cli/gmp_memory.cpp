@@ -8,8 +8,8 @@
 #include <mutex>
 #include <new>
 
-#include "app/options/want_of_memory.hpp"
 #include "app/cli/command.hpp"
+#include "app/options/want_of_memory.hpp"
 #include "files/output_file.hpp"
 
 namespace barycert::cli {

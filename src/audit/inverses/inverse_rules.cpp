@@ -1,7 +1,6 @@
 // Newton's method for the inverse maps of cells as it is in use: in plain double, with its tolerances.
 
 #include "barycert/inverse_rules.hpp"
-#include "audit/inverses/reference.hpp"  // IWYU pragma: keep
 
 #include <algorithm>
 #include <array>
@@ -10,6 +9,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "audit/inverses/reference.hpp"  // IWYU pragma: keep
 #include "core/base/vectors.hpp"
 #include "core/shape_functions.hpp"
 #include "core/vtk_cell.hpp"

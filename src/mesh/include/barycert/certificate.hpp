@@ -33,8 +33,8 @@ class Certificate {
 public:
     Certificate() = default;
 
-    /// Returns the certificate of a mesh that check_mesh certified before: `certified` if its fingerprint is among these
-    /// of such meshes, else not_checked. Reads the whole mesh.
+    /// Returns the certificate of a mesh that check_mesh certified before: `certified` if its fingerprint is among
+    /// these of such meshes, else not_checked. Reads the whole mesh.
     static Certificate known(const Mesh& mesh, std::span<const std::uint64_t> certified);
 
     /// Not for adversaries: it tells a mesh from one that was changed since. 0 if not checked.
