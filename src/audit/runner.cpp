@@ -16,7 +16,7 @@
 #include "audit/asking.hpp"
 #include "audit/block.hpp"
 #include "audit/judge.hpp"
-#include "audit/recipes.hpp"
+#include "audit/recipes.hpp"  // IWYU pragma: keep: the meshes of a source
 #include "barycert/audit.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/family.hpp"

@@ -134,20 +134,6 @@ std::string known_suffix(std::string_view path) {
     return lower(suffix_of(std::string(without_gz(path))));
 }
 
-/// Suffixes of the formats with that use, in the order of the table.
-std::vector<std::string_view> suffixes_with(Uses Format::*uses, Use use) {
-    std::vector<std::string_view> found;
-    for (const Format& format : all) {
-        if (!(format.*uses).has(use)) continue;
-        for (std::string_view rest = format.suffixes.substr(1); !rest.empty();) {
-            const std::size_t end = rest.find(' ');
-            found.push_back(rest.substr(0, end));
-            rest.remove_prefix(end + 1);
-        }
-    }
-    return found;
-}
-
 std::string in_a_row(const std::vector<std::string_view>& words, std::string_view between, std::string_view last) {
     std::string text;
     for (std::size_t i = 0; i < words.size(); ++i)
@@ -155,9 +141,8 @@ std::string in_a_row(const std::vector<std::string_view>& words, std::string_vie
     return text;
 }
 
-constexpr std::array<std::string_view, use_count> use_names{"meshes",  "surfaces", "PLCs",  "points",
-                                                            "fields",  "steps",    "rows",  "grids",
-                                                            "weights", "pictures", "pages", "scenes"};
+constexpr std::array<std::string_view, use_count> use_names{
+    "meshes", "surfaces", "PLCs", "points", "fields", "steps", "rows", "grids", "weights", "pictures", "pages"};
 
 std::string names_of(Uses uses) {
     std::vector<std::string_view> names;
@@ -210,9 +195,17 @@ bool is_written_as(std::string_view path, Use use) {
     return format != nullptr && format->written.has(use);
 }
 
-std::vector<std::string> listed_suffixes(Uses Format::*uses, Use use) {
-    const std::vector<std::string_view> found = suffixes_with(uses, use);
-    return {found.begin(), found.end()};
+std::vector<std::string_view> suffixes_with(Uses Format::*uses, Use use) {
+    std::vector<std::string_view> found;
+    for (const Format& format : all) {
+        if (!(format.*uses).has(use)) continue;
+        for (std::string_view rest = format.suffixes.substr(1); !rest.empty();) {
+            const std::size_t end = rest.find(' ');
+            found.push_back(rest.substr(0, end));
+            rest.remove_prefix(end + 1);
+        }
+    }
+    return found;
 }
 
 std::string suffixes_written(Use use) {

@@ -49,7 +49,6 @@ enum class FormatKind : std::uint8_t {
     svg,
     pdf,
     html,
-    json,
 };
 
 constexpr bool is_vtk(FormatKind kind) {
@@ -62,8 +61,8 @@ constexpr bool is_tetgen(FormatKind kind) {
 }
 
 /// What a file is read as, or written as.
-enum class Use : std::uint8_t { mesh, surface, plc, points, field, steps, rows, grid, weights, picture, page, scene };
-inline constexpr std::size_t use_count = 12;
+enum class Use : std::uint8_t { mesh, surface, plc, points, field, steps, rows, grid, weights, picture, page };
+inline constexpr std::size_t use_count = 11;
 
 class Uses {
 public:
@@ -111,8 +110,8 @@ FormatKind kind_of(std::string_view path);
 bool is_read_as(std::string_view path, Use use);
 bool is_written_as(std::string_view path, Use use);
 
-/// Suffixes with that use: &Format::read or &Format::written.
-std::vector<std::string> listed_suffixes(Uses Format::*uses, Use use);
+/// Suffixes with that use, in the order of the table: &Format::read or &Format::written.
+std::vector<std::string_view> suffixes_with(Uses Format::*uses, Use use);
 
 // Lists for people.
 

@@ -93,9 +93,10 @@ std::optional<MeshFormat> format_by_content(std::string_view head) {
 
 Error missing(const std::string& path) {
     Error error{.code = "file.missing", .what = "no such file", .file = path};
-    for (const std::string& suffix : base::listed_suffixes(&base::Format::read, base::Use::mesh)) {
-        if (!exists(path + suffix) || is_tetgen_file(path + suffix)) continue;
-        error.remedy = "there is " + path + suffix + ": name it with its suffix";
+    for (const std::string_view suffix : base::suffixes_with(&base::Format::read, base::Use::mesh)) {
+        const std::string named = path + std::string(suffix);
+        if (!exists(named) || is_tetgen_file(named)) continue;
+        error.remedy = "there is " + named + ": name it with its suffix";
         return error;
     }
     const base::Format* const other = other_format_by_suffix(path);

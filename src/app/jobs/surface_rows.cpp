@@ -204,7 +204,7 @@ SampleReport sample_surface(const SampleJob& job, const Surface& surface, double
     }
     const TableFormat format = format_of(job, fields, std::move(carried), report);
     RowOutputs outputs;
-    if (!job.output.empty()) outputs.sink = open_table(job.output, format).value();
+    if (!job.output.empty()) outputs.sink = open_rows(job.output, format);
     if (!job.save_map.empty()) outputs.map.emplace(MapWriter::open(job.save_map, surface).value());
     if (!job.weights.empty()) outputs.weights = io::WeightsFile::open(job.weights, surface.point_count()).value();
     report.seconds.read += watch.lap();

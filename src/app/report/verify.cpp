@@ -25,7 +25,6 @@
 #include "core/base/decades.hpp"
 #include "core/base/text.hpp"
 #include "draw/axes.hpp"
-#include "draw/files.hpp"
 #include "draw/histogram.hpp"
 #include "draw/picture.hpp"
 

@@ -19,7 +19,6 @@
 #include "barycert/mesh.hpp"
 #include "files/input_file.hpp"
 #include "io/formats.hpp"
-#include "io/tetgen/scanner.hpp"
 
 namespace barycert::io {
 

@@ -1,7 +1,6 @@
 /// Parts of an index that are made on first need. When it pays to make them before is PreparationPolicy's to say.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>

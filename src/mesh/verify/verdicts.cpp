@@ -21,7 +21,6 @@
 #include "mesh/locate/batch.hpp"
 #include "mesh/locate/cell_signs.hpp"
 #include "mesh/locate/locator_data.hpp"
-#include "mesh/sample/points/sampler_data.hpp"
 #include "mesh/threads/arena.hpp"
 #include "mesh/verify/errors.hpp"
 

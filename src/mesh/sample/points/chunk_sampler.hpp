@@ -17,7 +17,6 @@
 #include "barycert/table.hpp"
 #include "barycert/weights.hpp"
 #include "mesh/index/cell_index.hpp"
-#include "mesh/locate/finder.hpp"
 #include "mesh/locate/lanes.hpp"
 #include "mesh/locate/mapped/mapped_cells.hpp"
 #include "mesh/sample/points/sampler_data.hpp"
