@@ -1,3 +1,5 @@
+#include "io/mesh_format.hpp"
+
 #include <algorithm>
 #include <cctype>
 #include <cstddef>
@@ -19,7 +21,15 @@
 #include "core/base/nearest_name.hpp"
 #include "files/format.hpp"
 #include "files/input_file.hpp"
-#include "io/formats.hpp"
+#include "io/converted/converted.hpp"
+#include "io/errors.hpp"
+#include "io/in_space.hpp"
+#include "io/medit/medit.hpp"
+#include "io/mesh_notes.hpp"
+#include "io/other_formats.hpp"
+#include "io/paths.hpp"
+#include "io/series_steps.hpp"
+#include "io/table_format.hpp"
 #include "mesh/pulling.hpp"
 #include "mesh/threads/arena.hpp"
 

@@ -1,3 +1,5 @@
+#include "io/other_formats.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,8 +18,10 @@
 #include "barycert/result.hpp"
 #include "core/base/text.hpp"
 #include "files/format.hpp"
-#include "io/formats.hpp"
+#include "io/in_space.hpp"
+#include "io/mesh_format.hpp"
 #include "io/number_word.hpp"
+#include "io/paths.hpp"
 #include "io/words.hpp"
 
 namespace barycert::io {

@@ -14,7 +14,7 @@
 #include "barycert/result.hpp"
 #include "core/base/nearest_name.hpp"
 #include "core/base/text.hpp"
-#include "io/formats.hpp"
+#include "io/paths.hpp"
 #include "io/streams.hpp"
 #include "io/words.hpp"
 

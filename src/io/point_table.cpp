@@ -1,3 +1,5 @@
+#include "io/point_table.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -16,8 +18,12 @@
 #include "core/base/finite.hpp"
 #include "core/base/text.hpp"
 #include "files/format.hpp"
-#include "io/formats.hpp"
+#include "io/csv/csv_rows.hpp"
+#include "io/errors.hpp"
+#include "io/npy/npy_rows.hpp"
+#include "io/paths.hpp"
 #include "io/streams.hpp"
+#include "io/table_format.hpp"
 #include "mesh/columns.hpp"
 
 namespace barycert::io {
@@ -68,7 +74,7 @@ PointTable nodes_of(Mesh mesh) {
     return table;
 }
 
-Source open_any(const std::string& path, int dimension, const PointOptions& options) {
+std::unique_ptr<PointSource> open_any(const std::string& path, int dimension, const PointOptions& options) {
     const auto source_of = [&](PointTable table) {
         return points_of_table(std::move(table), path, dimension, options);
     };
@@ -91,12 +97,13 @@ Source open_any(const std::string& path, int dimension, const PointOptions& opti
 
 }  // namespace
 
-Source open_node_source(const std::string& path, int dimension, const PointOptions& options) {
+std::unique_ptr<PointSource> open_node_source(const std::string& path, int dimension, const PointOptions& options) {
     NodeTable nodes = read_node_table(path, dimension, options);
     return points_of_table(std::move(nodes.points), nodes.file, dimension, options);
 }
 
-Source points_of_table(PointTable table, const std::string& file, int dimension, const PointOptions& options) {
+std::unique_ptr<PointSource> points_of_table(PointTable table, const std::string& file, int dimension,
+                                             const PointOptions& options) {
     const auto size = static_cast<std::size_t>(table.dimension);
     TableColumns all{.names = {}, .file = file, .coordinates = size};
     std::vector<Place> places;

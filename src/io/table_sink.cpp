@@ -16,9 +16,12 @@
 #include "core/base/text.hpp"
 #include "files/format.hpp"
 #include "files/output_file.hpp"
-#include "io/formats.hpp"
+#include "io/csv/csv_rows.hpp"
+#include "io/npy/npy_rows.hpp"
 #include "io/parallel.hpp"
+#include "io/paths.hpp"
 #include "io/streams.hpp"
+#include "io/table_format.hpp"
 #include "io/vtk/out_file.hpp"
 
 namespace barycert {

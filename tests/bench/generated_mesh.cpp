@@ -9,7 +9,7 @@
 
 #include "core/base/large_pages.hpp"
 #include "core/base/random.hpp"
-#include "io/formats.hpp"
+#include "io/mesh_notes.hpp"
 #include "mesh/pulling.hpp"
 #include "tests/mesh/curved_mesh.hpp"
 #include "tests/mesh/whole_cells.hpp"

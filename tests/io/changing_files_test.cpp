@@ -1,24 +1,24 @@
 // Files that are cut, extended or replaced while they are read: what stood there, or an error; never the end of the
 // process.
-#include <unistd.h>
+#include <gtest/gtest.h>
 
 #include <chrono>
+#include <cstddef>
 #include <filesystem>
 #include <fstream>
+#include <ios>
 #include <random>
+#include <string>
 #include <thread>
+#include <vector>
 
-#include "barycert/gmsh_files.hpp"
+#include "barycert/mesh.hpp"
 #include "barycert/mesh_files.hpp"
-#include "barycert/plc_files.hpp"
 #include "barycert/point_files.hpp"
-#include "barycert/series.hpp"
-#include "barycert/surface_files.hpp"
-#include "barycert/table_files.hpp"
-#include "barycert/tetgen_files.hpp"
-#include "barycert/vtk_files.hpp"
-#include "io/formats.hpp"
-#include "tests/io/tetgen/mesh_files.hpp"
+#include "barycert/result.hpp"
+#include "io/fields/field_file.hpp"
+#include "io/mesh_format.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -1,5 +1,5 @@
 // Which reader a file goes to, and what is said of files that none reads.
-#include "io/formats.hpp"
+#include "io/mesh_format.hpp"
 
 #include <cstdlib>
 #include <filesystem>
@@ -13,6 +13,7 @@
 #include "barycert/table_files.hpp"
 #include "barycert/tetgen_files.hpp"
 #include "barycert/vtk_files.hpp"
+#include "io/other_formats.hpp"
 #include "tests/io/tetgen/mesh_files.hpp"
 
 namespace barycert::testing {

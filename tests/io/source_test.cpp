@@ -1,5 +1,5 @@
-#include "io/formats.hpp"
-
+#include "io/paths.hpp"
+#include "io/table_format.hpp"
 #include "tests/io/points_files.hpp"
 
 namespace barycert::io::testing {

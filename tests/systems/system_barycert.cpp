@@ -4,7 +4,7 @@
 #include <string>
 
 #include "barycert/sampler.hpp"
-#include "io/formats.hpp"
+#include "io/mesh_notes.hpp"
 #include "mesh/pulling.hpp"
 #include "tests/systems/exchange.hpp"
 

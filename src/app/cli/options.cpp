@@ -18,7 +18,7 @@
 #include "barycert/series.hpp"
 #include "barycert/table.hpp"
 #include "core/base/text.hpp"
-#include "io/formats.hpp"
+#include "io/paths.hpp"
 
 namespace barycert::cli {
 namespace {

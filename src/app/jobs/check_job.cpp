@@ -31,7 +31,10 @@
 #include "barycert/vtk_files.hpp"
 #include "files/format.hpp"
 #include "files/named_file.hpp"
-#include "io/formats.hpp"
+#include "io/in_space.hpp"
+#include "io/mesh_format.hpp"
+#include "io/mesh_notes.hpp"
+#include "io/paths.hpp"
 #include "io/polygons/triangles.hpp"
 
 namespace barycert {

@@ -24,7 +24,8 @@
 #include "core/base/workers.hpp"
 #include "files/format.hpp"
 #include "files/named_file.hpp"
-#include "io/formats.hpp"
+#include "io/errors.hpp"
+#include "io/paths.hpp"
 
 namespace barycert::jobs {
 

@@ -18,7 +18,8 @@
 #include "barycert/tetgen_files.hpp"
 #include "core/base/finite.hpp"
 #include "core/base/text.hpp"
-#include "io/formats.hpp"
+#include "io/mesh_format.hpp"
+#include "io/mesh_notes.hpp"
 
 namespace barycert::jobs {
 namespace {

@@ -34,7 +34,7 @@
 #include "barycert/tetgen_files.hpp"
 #include "files/format.hpp"
 #include "files/named_file.hpp"
-#include "io/formats.hpp"
+#include "io/mesh_format.hpp"
 
 namespace barycert {
 

@@ -38,8 +38,10 @@
 #include "files/format.hpp"
 #include "files/input_file.hpp"
 #include "files/named_file.hpp"
-#include "io/formats.hpp"
+#include "io/in_space.hpp"
+#include "io/paths.hpp"
 #include "io/polygons/triangles.hpp"
+#include "io/table_format.hpp"
 
 namespace barycert {
 

@@ -22,7 +22,8 @@
 #include "core/base/text.hpp"
 #include "files/format.hpp"
 #include "files/named_file.hpp"
-#include "io/formats.hpp"
+#include "io/paths.hpp"
+#include "io/series_steps.hpp"
 
 namespace barycert::jobs {
 namespace {

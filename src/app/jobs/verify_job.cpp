@@ -29,7 +29,7 @@
 #include "core/base/nearest_name.hpp"
 #include "core/base/text.hpp"
 #include "files/input_file.hpp"
-#include "io/formats.hpp"
+#include "io/paths.hpp"
 #include "mesh/sample/quantity/quantities.hpp"
 
 namespace barycert {

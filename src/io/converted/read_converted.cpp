@@ -25,7 +25,10 @@
 #include "files/descriptor.hpp"
 #include "files/embedded.hpp"
 #include "files/input_file.hpp"
-#include "io/formats.hpp"
+#include "io/converted/converted.hpp"
+#include "io/errors.hpp"
+#include "io/in_space.hpp"
+#include "io/paths.hpp"
 #include "io/vtk/raw_grid.hpp"
 #include "mesh/cell_types.hpp"
 

@@ -14,9 +14,11 @@
 #include "barycert/point_files.hpp"
 #include "barycert/result.hpp"
 #include "io/csv/csv_layout.hpp"
+#include "io/csv/csv_rows.hpp"
 #include "io/csv/line_reader.hpp"
-#include "io/formats.hpp"
+#include "io/errors.hpp"
 #include "io/parallel.hpp"
+#include "io/paths.hpp"
 #include "io/streams.hpp"
 #include "mesh/columns.hpp"
 
@@ -156,7 +158,7 @@ std::vector<ColumnFormat> formats_of_all(CsvSource source, const std::string& pa
 
 }  // namespace
 
-Source open_csv_source(const std::string& path, int dimension, const PointOptions& options) {
+std::unique_ptr<PointSource> open_csv_source(const std::string& path, int dimension, const PointOptions& options) {
     if (!options.typed || options.keep.empty()) return std::make_unique<CsvSource>(path, dimension, options);
     if (is_read_once(path))
         refuse_file("file.pipe", path == "-" ? "standard input" : path,

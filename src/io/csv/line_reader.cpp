@@ -15,7 +15,8 @@
 #include "barycert/result.hpp"
 #include "files/format.hpp"
 #include "files/input_file.hpp"
-#include "io/formats.hpp"
+#include "io/errors.hpp"
+#include "io/other_formats.hpp"
 
 namespace barycert::io {
 

@@ -1,3 +1,5 @@
+#include "io/fields/field_file.hpp"
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -15,8 +17,9 @@
 #include "files/input_file.hpp"
 #include "io/csv/csv_layout.hpp"
 #include "io/csv/line_reader.hpp"
-#include "io/formats.hpp"
+#include "io/errors.hpp"
 #include "io/npy/npy.hpp"
+#include "io/paths.hpp"
 #include "io/streams.hpp"
 #include "io/words.hpp"
 

@@ -21,9 +21,10 @@
 
 #include "core/base/large_pages.hpp"
 #include "core/base/workers.hpp"
-#include "io/formats.hpp"
+#include "io/errors.hpp"
 #include "io/gmsh/msh_file.hpp"
 #include "io/gmsh/msh_parts.hpp"
+#include "io/other_formats.hpp"
 #include "io/tetgen/scanner.hpp"
 
 namespace barycert::io {

@@ -17,9 +17,10 @@
 #include "core/base/text.hpp"
 #include "core/base/workers.hpp"
 #include "core/vtk_cell.hpp"
-#include "io/formats.hpp"
+#include "io/errors.hpp"
 #include "io/gmsh/msh_file.hpp"
 #include "io/gmsh/msh_parts.hpp"
+#include "io/mesh_notes.hpp"
 #include "mesh/cell_types.hpp"
 #include "mesh/part.hpp"
 

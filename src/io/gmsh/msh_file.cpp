@@ -15,8 +15,9 @@
 #include "core/base/text.hpp"
 #include "core/base/workers.hpp"
 #include "files/input_file.hpp"
-#include "io/formats.hpp"
+#include "io/errors.hpp"
 #include "io/number_word.hpp"
+#include "io/other_formats.hpp"
 #include "io/tetgen/scanner.hpp"
 #include "io/words.hpp"
 

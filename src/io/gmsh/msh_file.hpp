@@ -16,7 +16,7 @@
 #include "barycert/error_codes.hpp"
 #include "core/base/workers.hpp"
 #include "files/input_file.hpp"
-#include "io/formats.hpp"
+#include "io/errors.hpp"
 #include "io/tetgen/scanner.hpp"
 #include "io/vtk/numbers.hpp"
 

@@ -15,9 +15,11 @@
 #include "barycert/mesh.hpp"
 #include "barycert/result.hpp"
 #include "core/base/text.hpp"
-#include "io/formats.hpp"
+#include "io/errors.hpp"
 #include "io/gmsh/msh_file.hpp"
 #include "io/gmsh/msh_parts.hpp"
+#include "io/in_space.hpp"
+#include "io/mesh_notes.hpp"
 #include "io/vtk/raw_grid.hpp"
 #include "mesh/mid_edges.hpp"
 

@@ -19,7 +19,7 @@
 #include "barycert/result.hpp"
 #include "core/base/range.hpp"
 #include "core/base/text.hpp"
-#include "io/formats.hpp"
+#include "io/errors.hpp"
 #include "io/gmsh/msh_parts.hpp"
 #include "io/row_output.hpp"
 #include "mesh/consistency.hpp"

@@ -16,7 +16,7 @@
 #include "barycert/result.hpp"
 #include "core/base/text.hpp"
 #include "files/input_file.hpp"
-#include "io/formats.hpp"
+#include "io/errors.hpp"
 #include "io/npy/npy.hpp"
 #include "io/streams.hpp"
 #include "io/vtk/numbers.hpp"

@@ -17,8 +17,9 @@
 #include "barycert/error_codes.hpp"
 #include "core/base/text.hpp"
 #include "files/input_file.hpp"
-#include "io/formats.hpp"
+#include "io/errors.hpp"
 #include "io/npy/npy.hpp"
+#include "io/paths.hpp"
 
 namespace barycert::io {
 

@@ -19,8 +19,9 @@
 #include "barycert/table.hpp"
 #include "barycert/table_files.hpp"
 #include "core/base/text.hpp"
-#include "io/formats.hpp"
+#include "io/errors.hpp"
 #include "io/npy/npy.hpp"
+#include "io/npy/npy_rows.hpp"
 #include "io/streams.hpp"
 #include "mesh/columns.hpp"
 

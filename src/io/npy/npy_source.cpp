@@ -16,8 +16,9 @@
 #include "barycert/table.hpp"
 #include "core/base/finite.hpp"
 #include "core/base/text.hpp"
-#include "io/formats.hpp"
+#include "io/errors.hpp"
 #include "io/npy/npy.hpp"
+#include "io/npy/npy_rows.hpp"
 #include "io/parallel.hpp"
 #include "io/streams.hpp"
 

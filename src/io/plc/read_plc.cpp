@@ -13,7 +13,8 @@
 #include "barycert/result.hpp"
 #include "core/base/text.hpp"
 #include "files/format.hpp"
-#include "io/formats.hpp"
+#include "io/errors.hpp"
+#include "io/paths.hpp"
 #include "io/polygons/polygons.hpp"
 
 namespace barycert::io {

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "files/format.hpp"
-#include "io/formats.hpp"
+#include "io/paths.hpp"
 #include "io/polygons/polygons.hpp"
 
 namespace barycert::io {

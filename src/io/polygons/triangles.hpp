@@ -6,7 +6,7 @@
 #include "barycert/mesh.hpp"
 #include "barycert/plc.hpp"
 #include "barycert/surface.hpp"
-#include "io/formats.hpp"
+#include "io/in_space.hpp"
 #include "io/polygons/polygons.hpp"
 
 namespace barycert::io {

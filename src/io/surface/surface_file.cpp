@@ -17,7 +17,7 @@
 #include "barycert/table.hpp"
 #include "core/base/finite.hpp"
 #include "files/format.hpp"
-#include "io/formats.hpp"
+#include "io/errors.hpp"
 #include "io/row_output.hpp"
 #include "io/vtk/numbers.hpp"
 #include "io/vtk/out_file.hpp"

@@ -13,7 +13,7 @@
 #include "barycert/mesh.hpp"
 #include "barycert/mesh_files.hpp"
 #include "barycert/result.hpp"
-#include "io/formats.hpp"
+#include "io/paths.hpp"
 #include "io/row_output.hpp"
 #include "mesh/consistency.hpp"
 #include "mesh/mid_edges.hpp"

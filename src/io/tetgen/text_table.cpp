@@ -17,8 +17,10 @@
 #include "core/base/workers.hpp"
 #include "files/format.hpp"
 #include "files/input_file.hpp"
-#include "io/formats.hpp"
+#include "io/errors.hpp"
+#include "io/other_formats.hpp"
 #include "io/parallel.hpp"
+#include "io/paths.hpp"
 #include "io/tetgen/scanner.hpp"
 
 namespace barycert::io {

@@ -18,7 +18,7 @@
 #include "barycert/error_codes.hpp"
 #include "barycert/mesh.hpp"
 #include "files/input_file.hpp"
-#include "io/formats.hpp"
+#include "io/errors.hpp"
 
 namespace barycert::io {
 

@@ -19,7 +19,7 @@
 #include "barycert/result.hpp"
 #include "barycert/series.hpp"
 #include "files/input_file.hpp"
-#include "io/formats.hpp"
+#include "io/errors.hpp"
 #include "io/number_word.hpp"
 #include "io/vtk/raw_grid.hpp"
 #include "io/vtk/xml.hpp"

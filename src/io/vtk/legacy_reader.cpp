@@ -14,7 +14,7 @@
 
 #include "core/base/large_pages.hpp"
 #include "core/vtk_cell.hpp"
-#include "io/formats.hpp"
+#include "io/errors.hpp"
 #include "io/number_word.hpp"
 #include "io/parallel.hpp"
 #include "io/vtk/legacy_text.hpp"

@@ -17,9 +17,9 @@
 #include <vector>
 
 #include "core/base/text.hpp"
-#include "io/formats.hpp"
 #include "io/number_word.hpp"
 #include "io/parallel.hpp"
+#include "io/paths.hpp"
 #include "io/words.hpp"
 
 namespace barycert::io {

@@ -18,7 +18,7 @@
 #include "barycert/result.hpp"
 #include "core/base/random.hpp"
 #include "core/vtk_cell.hpp"
-#include "io/formats.hpp"
+#include "io/errors.hpp"
 #include "io/parallel.hpp"
 #include "io/tetgen/scanner.hpp"
 #include "io/vtk/numbers.hpp"

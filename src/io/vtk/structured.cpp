@@ -10,7 +10,7 @@
 
 #include "core/base/large_pages.hpp"
 #include "core/vtk_cell.hpp"
-#include "io/formats.hpp"
+#include "io/errors.hpp"
 #include "io/parallel.hpp"
 #include "io/vtk/raw_grid.hpp"
 

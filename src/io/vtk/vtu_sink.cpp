@@ -20,7 +20,7 @@
 #include "barycert/table_files.hpp"
 #include "core/vtk_cell.hpp"
 #include "files/spool.hpp"
-#include "io/formats.hpp"
+#include "io/table_format.hpp"
 #include "io/vtk/numbers.hpp"
 #include "io/vtk/out_file.hpp"
 #include "io/vtk/out_grid.hpp"

@@ -13,8 +13,9 @@
 #include <vector>
 
 #include "core/vtk_cell.hpp"
-#include "io/formats.hpp"
 #include "io/number_word.hpp"
+#include "io/other_formats.hpp"
+#include "io/paths.hpp"
 #include "io/vtk/numbers.hpp"
 #include "io/vtk/raw_grid.hpp"
 #include "io/vtk/xml.hpp"

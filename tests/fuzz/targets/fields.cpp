@@ -1,7 +1,7 @@
 // Fields in files of their own: text, CSV, NPY. The first byte: which, and the column.
 #include <array>
 
-#include "io/formats.hpp"
+#include "io/fields/field_file.hpp"
 #include "tests/fuzz/files.hpp"
 #include "tests/fuzz/target.hpp"
 

@@ -1,5 +1,5 @@
 // Medit's files, text and binary: meshes, and fields alone. The first byte: which.
-#include "io/formats.hpp"
+#include "io/medit/medit.hpp"
 
 #include "tests/fuzz/files.hpp"
 #include "tests/fuzz/same.hpp"

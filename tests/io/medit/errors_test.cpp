@@ -1,5 +1,6 @@
 // Files that are refused, and the words.
 
+#include "io/medit/medit.hpp"
 #include "tests/io/medit/medit_files.hpp"
 
 namespace barycert::testing {

@@ -1,5 +1,6 @@
 // .sol and .solb: fields for a mesh that stands in another file, or in the same.
 #include "app/jobs/field_files.hpp"
+#include "io/medit/medit.hpp"
 #include "tests/io/medit/medit_files.hpp"
 
 namespace barycert::testing {

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "io/formats.hpp"
 #include "tests/io/gmsh/msh_files.hpp"
 
 namespace barycert::testing {

@@ -1,4 +1,5 @@
 // Meshes in all versions and forms.
+#include "io/medit/medit.hpp"
 #include "tests/io/medit/medit_files.hpp"
 
 namespace barycert::testing {

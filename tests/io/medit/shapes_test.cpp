@@ -9,6 +9,7 @@
 #include "barycert/plc.hpp"
 #include "barycert/surface.hpp"
 #include "barycert/surface_report.hpp"
+#include "io/medit/medit.hpp"
 #include "tests/io/medit/medit_files.hpp"
 
 namespace barycert::testing {

@@ -1,0 +1,39 @@
+/// Points that are in memory, with what their file says of each.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "barycert/point_files.hpp"
+#include "barycert/result.hpp"
+#include "barycert/table.hpp"
+#include "barycert/vtk_files.hpp"
+
+namespace barycert::io {
+
+/// Points that are in memory, with what their file says of each.
+struct PointTable : PointData {
+    std::vector<std::string> unread;  ///< columns that nobody asked for, by name
+    bool of_nodes = false;            ///< of a .node file
+};
+
+/// The nodes of a .node file as points, and the name of the file that was read.
+struct NodeTable {
+    PointTable points;
+    std::string file;
+};
+NodeTable read_node_table(const std::string& path, int dimension, const PointOptions& options);
+
+/// As open_points of a .node file. Error, thrown as an Exception: it cannot be read.
+std::unique_ptr<PointSource> open_node_source(const std::string& path, int dimension, const PointOptions& options);
+
+/// As open_points chooses among columns: the coordinates x, y[, z]; NAME, or NAME.0, NAME.1, ... of each field; labels.
+std::unique_ptr<PointSource> points_of_table(PointTable table, const std::string& file, int dimension,
+                                             const PointOptions& options);
+
+/// Points and point arrays: integers of one component and texts as labels. Without `arrays` those of XML are unread.
+Result<PointTable> read_vtk_table(const std::string& path, bool arrays,
+                                  NonfinitePoints nonfinite = NonfinitePoints::error);
+
+}  // namespace barycert::io
