@@ -27,9 +27,4 @@ std::string meshio_format(const std::string& path);
 /// Returns the format of a mesh to write: by the end of its name. Error: no such format.
 Result<MeshFormat> mesh_output_format(const std::string& path);
 
-/// "a file of Gmsh (.msh), ...": what is read as a mesh.
-inline std::string formats_read() {
-    return "a file of " + base::families_read(base::Use::mesh) + ", or one that meshio reads";
-}
-
 }  // namespace barycert::io

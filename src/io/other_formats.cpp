@@ -19,8 +19,8 @@
 #include "core/base/text.hpp"
 #include "files/format.hpp"
 #include "io/in_space.hpp"
-#include "io/mesh_format.hpp"
 #include "io/number_word.hpp"
+#include "io/other_formats.hpp"
 #include "io/paths.hpp"
 #include "io/words.hpp"
 

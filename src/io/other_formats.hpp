@@ -21,6 +21,11 @@ std::string_view first_word(std::string_view text, char comment);
 /// Returns the error that the file is not read, with a remedy.
 Error other_format_error(const base::Format& format, const std::string& path);
 
+/// "a file of Gmsh (.msh), ...": what is read as a mesh.
+inline std::string formats_read() {
+    return "a file of " + base::families_read(base::Use::mesh) + ", or one that meshio reads";
+}
+
 /// The command that makes one grid of the pieces of a file, in backquotes.
 std::string one_grid_command(const std::string& path);
 

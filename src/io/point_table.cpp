@@ -24,6 +24,7 @@
 #include "io/paths.hpp"
 #include "io/streams.hpp"
 #include "io/table_format.hpp"
+#include "io/tetgen/node_table.hpp"
 #include "mesh/columns.hpp"
 
 namespace barycert::io {

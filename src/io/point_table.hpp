@@ -3,27 +3,13 @@
 
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "barycert/point_files.hpp"
 #include "barycert/result.hpp"
 #include "barycert/table.hpp"
-#include "barycert/vtk_files.hpp"
+#include "io/tetgen/node_table.hpp"
 
 namespace barycert::io {
-
-/// Points that are in memory, with what their file says of each.
-struct PointTable : PointData {
-    std::vector<std::string> unread;  ///< columns that nobody asked for, by name
-    bool of_nodes = false;            ///< of a .node file
-};
-
-/// The nodes of a .node file as points, and the name of the file that was read.
-struct NodeTable {
-    PointTable points;
-    std::string file;
-};
-NodeTable read_node_table(const std::string& path, int dimension, const PointOptions& options);
 
 /// As open_points of a .node file. Error, thrown as an Exception: it cannot be read.
 std::unique_ptr<PointSource> open_node_source(const std::string& path, int dimension, const PointOptions& options);

@@ -31,6 +31,7 @@
 #include "io/mesh_format.hpp"
 #include "io/paths.hpp"
 #include "io/point_table.hpp"
+#include "io/tetgen/node_table.hpp"
 #include "io/vtk/numbers.hpp"
 #include "mesh/columns.hpp"
 #include "mesh/part.hpp"
@@ -95,9 +96,11 @@ Result<Mesh> points_as_mesh(const std::string& path, int dimension, const Error&
     return mesh;
 }
 
-/// Whether it has fields of Medit, and no mesh.
-bool is_solution(const std::string& path) {
-    return base::kind_of(path) == FormatKind::medit_fields;
+bool is_file_of_a_mesh(const std::string& path) {
+    if (base::is_read_as(path, Use::mesh)) return true;
+    std::error_code ignored;  // what is no regular file is not opened to look at it
+    return !base::is_read_as(path, Use::field) && std::filesystem::is_regular_file(path, ignored) &&
+           io::mesh_format(path);
 }
 
 /// The array file.column of a mesh or surface, named as the field; file.of becomes what it is of.
@@ -138,8 +141,8 @@ Mesh read_solution(FieldFile& file, int dimension, Notes& notes) {
 }
 
 /// The array file.column of the mesh in the file; file.of becomes what it is of.
-Field read_array(const Mesh& mesh, FieldFile& file, Notes& notes) {
-    const bool solution = is_solution(file.path);
+Field read_array(const Mesh& mesh, FieldInput& file, Notes& notes) {
+    const bool solution = file.source == FieldSource::solution;
     const auto read = [&] {
         Result<Mesh> whole = read_mesh(file.path, {.faces = false, .neighbours = false});
         return (whole ? std::move(whole) : points_as_mesh(file.path, mesh.dimension, whole.error())).value();
@@ -190,32 +193,34 @@ void check_label(const Mesh& mesh, const Column& label) {
 
 }  // namespace
 
-bool is_file_of_a_mesh(const std::string& path) {
-    if (base::is_read_as(path, Use::mesh)) return true;
-    std::error_code ignored;  // what is no regular file is not opened to look at it
-    return !base::is_read_as(path, Use::field) && std::filesystem::is_regular_file(path, ignored) &&
-           io::mesh_format(path);
+FieldInput field_input(FieldFile file) {
+    const auto source = [](const std::string& path) {
+        if (base::kind_of(path) == FormatKind::medit_fields) return FieldSource::solution;
+        if (is_file_of_a_mesh(path)) return FieldSource::mesh;
+        return io::is_surface_file(path) ? FieldSource::surface : FieldSource::rows;
+    };
+    const FieldSource is = source(file.path);
+    return {std::move(file), is};
 }
 
-Field read_field(const Mesh& mesh, FieldFile& file, Notes& notes) {
-    if (is_file_of_a_mesh(file.path) || is_solution(file.path)) return read_array(mesh, file, notes);
+Field read_field(const Mesh& mesh, FieldInput& file, Notes& notes) {
+    if (file.source == FieldSource::mesh || file.source == FieldSource::solution) return read_array(mesh, file, notes);
     return io::read_field_file(file.name, file.path, file.column, notes).value();
 }
 
-void by_parts(const Mesh& mesh, const FieldFile& file, Field& field) {
+void by_parts(const Mesh& mesh, const FieldInput& file, Field& field) {
     const std::size_t whole = mesh.whole_count() * static_cast<std::size_t>(field.components);
-    if (mesh.shapes.count() != 0 && !is_file_of_a_mesh(file.path) && field.data.size() == whole)
+    if (mesh.shapes.count() != 0 && file.source != FieldSource::mesh && field.data.size() == whole)
         field = mesh::rows_of(field, mesh::whole_of_parts(mesh));
 }
 
-FieldPlace add_field(const FieldFile& file, Mesh& mesh, bool replace) {
-    FieldFile of = file;
-    Field field = read_field(mesh, of, mesh.notes);
+FieldPlace add_field(FieldInput file, Mesh& mesh, bool replace) {
+    Field field = read_field(mesh, file, mesh.notes);
     const std::size_t rows = field.data.size() / static_cast<std::size_t>(field.components);
     // Files of meshes were cut like this one.
-    const bool parts = is_file_of_a_mesh(of.path);
-    const bool cells = is_of_cells(of, rows, mesh.point_count(), parts ? mesh.cell_count() : mesh.whole_count());
-    if (cells) by_parts(mesh, of, field);
+    const bool parts = file.source == FieldSource::mesh;
+    const bool cells = is_of_cells(file, rows, mesh.point_count(), parts ? mesh.cell_count() : mesh.whole_count());
+    if (cells) by_parts(mesh, file, field);
     std::vector<Field>& fields = cells ? mesh.cell_fields : mesh.point_fields;
     const std::string full = std::string(cells ? cell_prefix : point_prefix) + file.name;
     for (std::size_t i = 0; replace && i < fields.size(); ++i) {
@@ -247,16 +252,17 @@ void give_each_a_name(Mesh& mesh) {
 }
 
 void add_fields(const std::vector<FieldFile>& files, Mesh& mesh) {
-    for (const FieldFile& file : files) add_field(file, mesh, false);
+    for (const FieldFile& file : files) add_field(field_input(file), mesh, false);
     give_each_a_name(mesh);
 }
 
 void add_fields(const std::vector<FieldFile>& files, Surface& s) {
-    for (FieldFile file : files) {
+    for (const FieldFile& of : files) {
+        FieldInput file = field_input(of);
         Field field;
         // An array is of the triangles, as they are read; rows are of the facets.
-        const bool array = is_solution(file.path) || is_file_of_a_mesh(file.path) || io::is_surface_file(file.path);
-        if (is_solution(file.path)) {
+        const bool array = file.source != FieldSource::rows;
+        if (file.source == FieldSource::solution) {
             field = array_named(read_solution(file, 3, s.notes), file);
         } else if (array) {
             const Surface other = read_surface(file.path).value();

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <functional>
 #include <optional>
@@ -26,8 +27,19 @@ inline bool is_name_of_rows(const std::string& name) {
     return std::ranges::find(taken, name) != taken.end();
 }
 
-/// Whether fields are read as arrays of a mesh: by the suffix (.dat is a table, if Tecplot's, too), else the content.
-bool is_file_of_a_mesh(const std::string& path);
+/// What a file of a field is, as its suffix says, else its content (.dat is a table, if Tecplot's, too).
+enum class FieldSource : std::uint8_t {
+    rows,      ///< numbers of its own
+    solution,  ///< fields of Medit, and no mesh
+    mesh,      ///< arrays of nodes and cells
+    surface,   ///< the same of a surface
+};
+
+/// A file of a field that knows what it is.
+struct FieldInput : FieldFile {
+    FieldSource source = FieldSource::rows;
+};
+FieldInput field_input(FieldFile file);
 
 struct FieldPlace {
     bool of_cells = false;
@@ -35,14 +47,14 @@ struct FieldPlace {
 };
 
 /// The field in the file, any number of rows. file.of becomes what it is of, where the file tells.
-Field read_field(const Mesh& mesh, FieldFile& file, Notes& notes);
+Field read_field(const Mesh& mesh, FieldInput& file, Notes& notes);
 
 /// Rows of whole cells become rows of their parts, but for a field from a file of a mesh, which was cut like this one.
-void by_parts(const Mesh& mesh, const FieldFile& file, Field& field);
+void by_parts(const Mesh& mesh, const FieldInput& file, Field& field);
 
 /// Adds the field of a file to the mesh, and to its notes what is to be told of it; with `replace`, in the place of one
 /// of that name. Refused: a name twice; rows that fit neither nodes nor cells, or both unsaid.
-FieldPlace add_field(const FieldFile& file, Mesh& mesh, bool replace);
+FieldPlace add_field(FieldInput file, Mesh& mesh, bool replace);
 
 /// Adds the fields of all files to the surface: a row for each node, or for each cell as users count them.
 void add_fields(const std::vector<FieldFile>& files, Surface& surface);

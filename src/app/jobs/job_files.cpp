@@ -55,7 +55,7 @@ void add_input(std::vector<base::NamedFile>& inputs, const std::string& what, co
     for (const std::string& file : vtk_mesh_files(path)) inputs.push_back({what, file});
 }
 
-void add_fields_to(std::vector<base::NamedFile>& inputs, const std::vector<FieldFile>& files) {
+void add_fields_to(std::vector<base::NamedFile>& inputs, const auto& files) {
     for (const FieldFile& f : files) add_input(inputs, "field " + f.name, f.path);
 }
 

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/jobs/field_files.hpp"
 #include "barycert/error_codes.hpp"
 #include "barycert/job.hpp"
 #include "barycert/locator.hpp"
@@ -74,7 +75,7 @@ using base::counted;
 /// a step of the mesh.
 struct Step {
     std::string label;
-    std::vector<FieldFile> files = {};
+    std::vector<FieldInput> files = {};
     std::string time = {};                    ///< as text; empty: not known
     std::optional<std::size_t> of_mesh = {};  ///< its number in the series that the mesh is
 };

@@ -18,6 +18,7 @@
 #include "app/jobs/job_files.hpp"
 #include "app/jobs/points_of_job.hpp"
 #include "app/jobs/profile.hpp"
+#include "app/jobs/sample_checks.hpp"
 #include "app/jobs/sampled_mesh.hpp"
 #include "app/jobs/stream.hpp"
 #include "app/jobs/surface_rows.hpp"
@@ -25,7 +26,6 @@
 #include "barycert/figure.hpp"
 #include "barycert/map.hpp"
 #include "barycert/mesh.hpp"
-#include "barycert/mesh_files.hpp"
 #include "barycert/point_files.hpp"
 #include "barycert/result.hpp"
 #include "barycert/sampler.hpp"
@@ -33,15 +33,11 @@
 #include "barycert/surface_files.hpp"
 #include "barycert/table.hpp"
 #include "barycert/table_files.hpp"
-#include "barycert/weights.hpp"
 #include "core/base/finite.hpp"
 #include "files/format.hpp"
 #include "files/input_file.hpp"
-#include "files/named_file.hpp"
-#include "io/in_space.hpp"
 #include "io/paths.hpp"
 #include "io/polygons/triangles.hpp"
-#include "io/table_format.hpp"
 
 namespace barycert {
 
@@ -51,55 +47,6 @@ namespace {
 
 using jobs::refuse_member;
 using jobs::SampledMesh;
-
-void check_job(const SampleJob& job, const std::vector<jobs::Step>& steps) {
-    const int given = (job.points.empty() ? 0 : 1) + (job.map.empty() ? 0 : 1) + (job.line ? 1 : 0);
-    if (given != 1)
-        refuse_member(given == 0 ? ErrorCode("option.missing") : ErrorCode("option.conflict"), "job.points", "",
-                      given == 0 ? "no points" : "job.points, job.map and job.line",
-                      "one of job.points FILE, job.map FILE and job.line A:B", given == 0 ? "none" : "several",
-                      "a map contains its points");
-    if (job.line && !(job.columns.empty() && job.keep.empty()))
-        refuse_member("option.conflict", "job.line", "",
-                      std::string(job.keep.empty() ? "job.columns" : "job.keep") + " cannot be combined with job.line",
-                      "", "", "points of a line have no columns");
-    if (!job.plot.empty() && !is_figure_name(job.plot))
-        jobs::refuse_output(job.plot, base::suffixes_written(Use::picture));
-    if (!job.plot.empty() && (job.all_steps || jobs::has_step_place(job.output)))
-        refuse_member("option.conflict", "job.plot", job.plot, "a plot of outputs of steps",
-                      "the steps of a field as columns of one output", "",
-                      "leave {step} out, and name the field as NAME@PATTERN");
-    if (!job.plot.empty() && !job.weights.empty() && job.output.empty())
-        refuse_member("option.missing", "job.output", job.plot,
-                      "job.weights without job.output takes no fields to plot", "job.output FILE", "none");
-    if (!job.map.empty() && !job.save_map.empty())
-        refuse_member("option.conflict", "job.save_map", job.save_map, "job.save_map cannot be combined with job.map",
-                      "", "", "copy the map");
-    if (!job.map.empty() && !(job.columns.empty() && job.keep.empty()))
-        refuse_member("option.conflict", "job.map", job.map,
-                      std::string(job.keep.empty() ? "job.columns" : "job.keep") + " cannot be combined with job.map",
-                      "", "", "a map has points and cells alone: name the file of the points by job.points");
-    if (job.map == "-" || job.save_map == "-")
-        refuse_member("option.value", "job.map", "", "a map cannot come from stdin or go to stdout", "", "",
-                      "name a file");
-    if (job.output.empty() && job.weights.empty() && job.plot.empty())
-        refuse_member("option.missing", "job.output", "", "no output",
-                      "job.output FILE, job.weights FILE or job.plot FILE", "none");
-    if (job.output.empty() && job.plot.empty() &&
-        !(job.fields.empty() && job.field_files.empty() && job.series.empty() && job.keep.empty()))
-        refuse_member("option.missing", "job.output", "", "fields or columns without job.output", "", "",
-                      "weights depend on no field: leave fields out, or name job.output too");
-    if (!job.output.empty() && job.output != "-" && !base::is_written_as(job.output, Use::rows))
-        jobs::refuse_output(job.output, base::suffixes_written(Use::rows) + ", or - for CSV on stdout");
-    std::vector<base::NamedFile> inputs;
-    if (!job.map.empty()) inputs = {{"job.map", job.map}};
-    if (!job.points.empty()) inputs = {{"job.points", job.points}};
-    // Not the file itself, but the stem of a mesh.
-    if (!job.points.empty() && job.points != "-" && !io::exists(job.points) && !io::format_of_points(job.points))
-        inputs = base::named_files("the mesh of job.points", mesh_files(job.points), true);
-    jobs::check_files(job, steps, inputs,
-                      {{"job.output", job.output}, {"job.save_map", job.save_map}, {"job.plot", job.plot}});
-}
 
 /// Rows of a map, which must stay. Rows of one point follow one another, their cells ascending.
 jobs::RowSource rows_of_map(MapReader& map) {
@@ -171,28 +118,6 @@ void at_points_of_map(SampledMesh& mesh, const SampleJob& job) {
     sample_rows(mesh, rows_of_map(map), outputs_of(mesh, job, {}));
 }
 
-void refuse_what_is_of_meshes(const SampleJob& job) {
-    const auto only_meshes = [&](bool given, const char* member) {
-        if (given)
-            refuse_member("option.unfit", std::string(member), job.mesh, std::string(member) + " is for meshes", "",
-                          "a surface", "leave it out");
-    };
-    only_meshes(job.all.has_value(), "job.all");
-    only_meshes(!job.plot.empty(), "job.plot");
-    only_meshes(job.all_steps || (io::is_surface_file(job.mesh) && job.step.made()), "job.step");
-    only_meshes(!job.series.empty(), "a series of fields");
-    only_meshes(job.options.rounding == Rounding::plain, "job.rounding");
-    const Outside outside = job.options.outside.kind;
-    if (outside != Outside::nan && outside != Outside::nearest)
-        refuse_member("option.unfit", "job.outside", job.mesh, "a surface has no inside for job.outside",
-                      "nearest, or nearest=DISTANCE", "", "values are those at the nearest point");
-}
-
-void check_surface_job(const SampleJob& job) {
-    refuse_what_is_of_meshes(job);
-    check_job(job, {});
-}
-
 SampleReport at_surface(const SampleJob& job, Surface surface, double seconds_to_read) {
     jobs::add_fields(job.field_files, surface);
     return jobs::sample_surface(job, surface, seconds_to_read);
@@ -202,21 +127,19 @@ SampleReport at_surface(const SampleJob& job, Surface surface, double seconds_to
 SampleReport sampled(const SampleJob& job) {
     const base::RunFiles run_files;
     const jobs::ThreadLimit limit(job.options.threads);
-    jobs::Stopwatch watch;
-    if (io::is_polygons_file(job.mesh)) {
-        check_surface_job(job);
-        return at_surface(job, read_surface(job.mesh, {.threads = job.options.threads}).value(), watch.lap());
-    }
-    std::vector<jobs::Step> steps = jobs::find_steps(job);
-    check_job(job, steps);
+    const bool polygons = io::is_polygons_file(job.mesh);
+    if (polygons) jobs::refuse_what_is_of_meshes(job);
+    std::vector<jobs::Step> steps = polygons ? std::vector<jobs::Step>() : jobs::find_steps(job);
+    jobs::check_sample_job(job, steps);
     const bool list_grids =
         !(job.map.empty() && job.save_map.empty()) || job.all.value_or(false) || jobs::needs_listed_grids(job);
     SampledMesh mesh(job, std::move(steps), "sample", list_grids);
     jobs::tell_stage(job, "reading " + job.mesh);
+    jobs::Stopwatch watch;
     std::variant<Mesh, Surface> read =
         read_mesh_or_surface(job.mesh, jobs::read_options(job.options.threads, mesh.first_step(), list_grids)).value();
     if (auto* const surface = std::get_if<Surface>(&read)) {
-        check_surface_job(job);
+        if (!polygons) jobs::refuse_what_is_of_meshes(job);
         return at_surface(job, std::move(*surface), watch.lap());
     }
     mesh.report.seconds.mesh = watch.lap();

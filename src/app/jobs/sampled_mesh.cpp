@@ -126,9 +126,9 @@ Mesh SampledMesh::read(const StepChoice& step) {
 void SampledMesh::add_fields_of_job() {
     add_fields(job.field_files, mesh_);
     for (const Step& step : steps) {
-        for (FieldFile file : step.files) {
+        for (FieldInput file : step.files) {
             if (!step_by_step()) file.name = name_of_step(file.name, step);
-            places_of_series_.push_back(add_field(file, mesh_, step_by_step()));
+            places_of_series_.push_back(add_field(std::move(file), mesh_, step_by_step()));
         }
         if (step_by_step()) break;
     }
@@ -199,7 +199,7 @@ void SampledMesh::read_fields(const Step& step) {
     for (std::size_t i = 0; i < step.files.size(); ++i) {
         const FieldPlace place = places_of_series_[i];
         Field& field = (place.of_cells ? mesh_.cell_fields : mesh_.point_fields)[place.number];
-        FieldFile file = step.files[i];
+        FieldInput file = step.files[i];
         file.of = place.of_cells ? FieldFile::Of::cells : FieldFile::Of::points;
         Field read = read_field(mesh_, file, notes);
         if (place.of_cells) by_parts(mesh_, file, read);

@@ -49,8 +49,9 @@ auto natural_order(const std::string& text) {
 /// The step of one series. The array has the name of the field, unless another one is given.
 Step step_of(const std::string& label, FieldFile series, const std::string& path) {
     series.path = path;
-    if (series.column.empty() && is_file_of_a_mesh(path)) series.column = series.name;
-    return {.label = label, .files = {std::move(series)}};
+    FieldInput file = field_input(std::move(series));
+    if (file.column.empty() && file.source == FieldSource::mesh) file.column = file.name;
+    return {.label = label, .files = {std::move(file)}};
 }
 
 /// FILE and COLUMN of FILE:COLUMN, split at the last colon; nothing where there is none.

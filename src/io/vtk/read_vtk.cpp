@@ -30,6 +30,7 @@
 #include "io/point_table.hpp"
 #include "io/series_steps.hpp"
 #include "io/streams.hpp"
+#include "io/tetgen/node_table.hpp"
 #include "io/vtk/collection.hpp"
 #include "io/vtk/numbers.hpp"
 #include "io/vtk/raw_grid.hpp"

@@ -1,7 +1,19 @@
 // .sol and .solb: fields for a mesh that stands in another file, or in the same.
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
 #include "app/jobs/field_files.hpp"
+#include "barycert/job.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/mesh_files.hpp"
+#include "barycert/result.hpp"
 #include "io/medit/medit.hpp"
+#include "tests/io/gmsh/msh_files.hpp"
 #include "tests/io/medit/medit_files.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace barycert::testing {
 namespace {
@@ -76,7 +88,7 @@ TEST(MeditFields, NamedAsFieldFiles) {
     const auto add = [&](const std::string& name, const std::string& file, const std::string& column,
                          FieldFile::Of of = FieldFile::Of::either) -> Result<jobs::FieldPlace> {
         try {
-            return jobs::add_field({of, name, folder / file, column}, mesh, false);
+            return jobs::add_field(jobs::field_input({of, name, folder / file, column}), mesh, false);
         } catch (const Exception& e) {
             return e.error();
         }
