@@ -23,9 +23,9 @@
 namespace barycert::mesh {
 
 /// Makes cells of mesh.shapes, which has all but `parts` and `inside`. A cell that is flat, or cannot be cut,
-/// has one part, a degenerate one. `otherwise`, if given, gets how many are cut, but not at their lowest node and those
-/// of their faces. `numbers`: of each node, in place of its index, that by which nodes are ordered.
-/// Returns the first polyhedron whose faces do not close, if there is one: each edge must be one of two faces.
+/// has one part, a degenerate one. `otherwise`, if given, gets the number of cells that are cut, but not at the lowest
+/// node of the cell and of each face. `numbers`: for each node, the number that orders nodes; empty: its index.
+/// Returns the first polyhedron whose faces do not close, if there is one: two faces must share each edge.
 /// Requires: nodes in range, as many as the types have.
 std::optional<std::size_t> pull(Mesh& mesh, std::span<const Mesh::Index> numbers = {},
                                 std::size_t* otherwise = nullptr);

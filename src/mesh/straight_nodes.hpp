@@ -12,10 +12,11 @@
 ///   mesh tells the digits, not the coordinate. Corners are then what their texts say, the shortest that are read as
 ///   they are.
 ///
-/// So half a unit of the node is excused, where the place has a digit more than the file. For floats and decimal
-/// numbers half a unit of each corner is excused, too, times its share of the place, all together but the sum itself:
-/// they were rounded when they were written, after the place was computed. That matters where numbers have other units:
-/// of equal ones the sum is a whole number of halves. From 15 digits on so is the middle's own rounding to double.
+/// So a node may be off by half a unit of its own, where the place has a digit more than the file. For floats and
+/// decimal numbers it may also be off by half a unit of each corner times the corner's share of the place, because
+/// corners were rounded when they were written, after the place was computed; all together it must be off by less than
+/// the sum of these. The corners' part matters only where units differ: if all are equal, a node is off by a whole
+/// number of half units. From 15 digits on, the sum also has the error of rounding the place to double.
 #pragma once
 
 #include <array>

@@ -67,7 +67,7 @@ Status write_output(const std::string& path, std::string_view bytes);
 /// How the user calls this program, for commands to repeat: BARYCERT_COMMAND if a wrapper set it, else "barycert".
 std::string command_name();
 
-/// The text with that name for the program in each of its commands, which stand between ` and `.
+/// Returns the text with command_name() in place of `barycert` at the start of each command between backquotes.
 std::string with_command_name(std::string text);
 
 /// The text of an error or a note that has a subject, with the option that sets it in place of each member of a job:

@@ -122,7 +122,7 @@ inline Locator build_locator(const MeshJob& job, const Mesh& mesh, int threads, 
     return Locator::build(mesh, build_options(job, threads, prove)).value();
 }
 
-/// The mesh, the files of fields, and `more`; of VTK's files that name others, those.
+/// Returns the files of the mesh and of fields, then `more`. Each VTK file is followed by the files that it names.
 std::vector<base::NamedFile> input_files(const MeshJob& job, const std::vector<base::NamedFile>& more = {});
 
 /// The outputs and the reports of the job, held against the inputs by base::check_outputs.

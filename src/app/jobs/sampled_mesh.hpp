@@ -47,7 +47,8 @@ public:
     /// Reads the mesh, unless it is given, and the files of fields, and chooses fields.
     void open(std::optional<Mesh> given = {});
 
-    /// Which step of the mesh that of a series means, and which one comes first.
+    /// Returns the step of the mesh to read for a step: its own if the mesh is the series, else that of the job.
+    /// first_step() does so for the first step.
     StepChoice step_of_mesh(const Step& step) const {
         return step.of_mesh ? StepChoice{.number = step.of_mesh} : job.step;
     }
@@ -98,9 +99,9 @@ public:
     /// Reads the meshes of all steps. Refused: one differs from the first, and `member`, the output `path`, is of one.
     void check_one_mesh(const std::string& path, const char* member);
 
-    /// Gives back what of the mesh sampling does not read again: of linear cells, unless points outside ask for their
-    /// nearest cell or other steps follow, all but the values of cell fields, labels and numbers of cells.
-    /// Requires: prepared; nobody else reads the mesh any more, but for its dimension.
+    /// Frees what sampling does not read again: coordinates, cells, markers of nodes and values of node fields. Does
+    /// nothing if cells are of second order, may have maps or are not listed, if points outside need the nearest cell,
+    /// or if each step has outputs of its own. Requires: prepared; nobody else reads these parts any more.
     void let_go_of_mesh();
 
     /// The weights of rows as the locator names their cells, on the nodes of the mesh. Not after let_go_of_mesh().

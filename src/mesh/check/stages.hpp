@@ -248,7 +248,7 @@ struct HangingNode {
 /// The nodes of f within g, or within an edge of it: not those at the place of a node of g. `cell`: that of g.
 void add_hanging(int d, const PlacedFacet& f, const PlacedFacet& g, Mesh::Index cell, std::vector<HangingNode>& all);
 
-/// By node and face; of those with the same the first cell's.
+/// Sorts by node and face. Of entries with the same node and face, keeps the one with the lowest cell.
 void sort_hanging(std::vector<HangingNode>& all);
 
 struct BoundaryContacts {
@@ -301,9 +301,10 @@ struct NearPair {
 bool for_each_near(const Mesh& mesh, const std::vector<Mesh::Index>& nodes, const std::vector<double>& radius,
                    std::size_t limit, const std::function<void(const NearPair&)>& found);
 
-/// The nodes no farther from an edge or a facet than the radius of the node and of each node of the facet, and farther
-/// from these nodes; of no cell that has the node, too. `radius`: of each node, 0 of those that are not of the
-/// boundary. Ascending, up to `limit`.
+/// Returns the nodes that nearly lie within an edge or a facet of the boundary: no farther from it than the least
+/// radius of the node and the facet's nodes, but farther than that from each of the facet's nodes. Leaves out an edge
+/// or facet if one of its cells has the node, too. `radius`: for each node; 0 if it is not on the boundary. Ascending,
+/// up to `limit`.
 LimitedList<HangingNode> nearly_hanging(const Checked& c, const std::vector<double>& radius, std::size_t limit);
 
 /// Finds near_nodes and near_hanging, as CheckOptions::near has them, crack, and of touching.hanging those that are no

@@ -22,8 +22,8 @@ inline int crossing(const std::array<const double*, 3>& t, const double* p) {
     };
     const int s = side(t[0], t[1]);
     if (side(t[1], t[2]) != s || side(t[2], t[0]) != s) return 0;
-    // All turn the same way, so the projection has an area, of sign s, and the point lies in it. On the triangle itself
-    // it does not lie: no point does that is asked for, and if it lies in its plane, it lies on it.
+    // All turn the same way, so the projection has an area, of sign s, and the point lies in it. The point is not in
+    // the triangle's plane: there it would lie on the triangle, and callers ask for no such point.
     return static_cast<int>(orient3d(t[0], t[1], t[2], p)) == -s ? s : 0;
 }
 

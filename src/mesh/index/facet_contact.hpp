@@ -9,8 +9,8 @@
 
 namespace barycert::index {
 
-/// A facet with proper extent: a triangle in 3-space of which no side projection is needed to be non-zero but one, or a
-/// segment in the plane.
+/// A facet by its nodes and their places: a triangle in 3-space that has an area, that is, at least one of its
+/// projections along the axes has an area; or a segment in the plane that has a length.
 struct PlacedFacet {
     std::array<Mesh::Index, 3> nodes{-1, -1, -1};
     std::array<const double*, 3> at{};

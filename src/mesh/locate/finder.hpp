@@ -75,7 +75,8 @@ private:
                             candidates_);
             if (candidates_.size() < enough && i + points_at_once < count) continue;
             for (const Candidate& c : candidates_) {
-                // Boxes in whole numbers are larger; in cells far smaller than their domain, much.
+                // The tree's boxes, in whole numbers, are larger than those of the cells: much larger for cells
+                // that are far smaller than the domain.
                 const double* const at = points[c.point].at.data();
                 if (box_holds(data_.index, c.cell, at)) use(c, cell_signs(data_.index, c.cell, at, tests));
             }

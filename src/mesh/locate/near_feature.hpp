@@ -60,9 +60,9 @@ struct NearCell {
     NearFeature feature(unsigned mask) const;
 };
 
-/// Finds the feature of the closed cell on which its point nearest to p lies; of a point inside, the point itself.
-/// `guess` is a feature to try first, a mask. Returns false if the cell is degenerate and no triangle in space: of such
-/// it is a vertex, or an edge between corners that follow one another along its line.
+/// Sets `out` to the feature of the closed cell that has the cell's point nearest to p; to p itself if p is inside.
+/// `guess`: the mask of a feature to try first. Returns false if the cell is degenerate, unless it is a triangle in
+/// space: then the feature is a vertex, or an edge between corners that follow one another along its line.
 bool nearest_feature(const NearCell& cell, const Point3& p, unsigned guess, NearFeature& out);
 
 // Triangles in space without an area: segments and points.

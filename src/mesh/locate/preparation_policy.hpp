@@ -15,8 +15,8 @@
 
 namespace barycert::locate {
 
-/// The number of points of a call decides, and for calls of one point how many there were: no part depends on threads.
-/// It does not change results, but which cells are asked.
+/// Decides by the number of points of a call; for calls of one point, by the number of such calls so far. So the parts
+/// that are made do not depend on threads. They do not change results, only which cells are tested.
 class PreparationPolicy {
 public:
     /// Whether a locator may be built without the proof, for points to show whether it pays.

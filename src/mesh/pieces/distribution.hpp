@@ -33,10 +33,12 @@ public:
 };
 
 /// Every rank makes one, and calls these in this order. Each is agreed on before it ends:
-///   ask          the box of every piece and that of the points of every rank, to all; of a piece that is asked much,
-///                finer boxes to those who ask; then each point to every rank of which a box holds it
-///   swap_values  its owner there, by number, and its values
-///   merge        the lowest number wins; of equal ones, which are those of copies of one cell, that of the lowest rank
+///   ask          tells all ranks the box of each piece and the box of each rank's points. A rank that is asked for
+///                many points sends finer boxes to those who ask. Then each point goes to every rank that has a box
+///                around it
+///   swap_values  sends back, for each point, the number of its owner on that rank and its values
+///   merge        keeps the owner with the lowest number. Copies of one cell have the same number: then it keeps the
+///                one of the lowest rank
 class Distribution {
 public:
     /// All stay as they are.

@@ -96,7 +96,8 @@ public:
     /// Sends that rank's bytes to all. Replaces those of the others after room for them was found everywhere.
     Status broadcast(std::vector<unsigned char>& bytes, int from);
 
-    /// Whom this rank exchanges messages with, in the order in which it does; each of them names this rank, too.
+    /// Sets the ranks with which this rank exchanges messages; partners() returns them in the order of the exchanges.
+    /// Requires: each of them names this rank, too.
     void set_partners(std::vector<int> ranks);
     const std::vector<int>& partners() const { return partners_; }
 

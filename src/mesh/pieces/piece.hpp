@@ -129,8 +129,8 @@ struct PieceFacts {
     }
 };
 
-/// All call it. The pieces have the highest dimension of any of them; polygons lie across one axis on all ranks, or
-/// they are not those of one mesh.
+/// Returns what all pieces are taken for. The dimension is the highest that any piece has. Requires: every rank calls
+/// it. Error: there are only points and lines, or polygons that do not lie in one plane across an axis.
 Result<Shape> agree_on_shape(Exchange& exchange, const PieceFacts& mine);
 
 }  // namespace barycert::pieces

@@ -1,5 +1,5 @@
-/// Audits by names of files: of meshes, an earlier audit. Who calls with read_mesh and certify_mesh
-/// links barycert::io and barycert::check, too.
+/// Audits of files: a job names meshes and an earlier audit by their paths. A program that uses the default arguments
+/// read_mesh and certify_mesh must also link barycert::io and barycert::check.
 ///
 /// Example:
 ///

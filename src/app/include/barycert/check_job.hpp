@@ -45,8 +45,8 @@ struct FixedMesh {
 
 /// A mesh that was checked, and what was done with it.
 struct CheckedMesh {
-    Mesh mesh;             ///< or
-    Surface surface;       ///< if report.surface is there; of a PLC, the triangles that its facets are cut into
+    Mesh mesh;             ///< the mesh; without cells if a surface or a PLC was checked
+    Surface surface;       ///< the surface, if report.surface is set; for a PLC, the triangles of its facets
     std::string name;      ///< what the user calls it, without the suffix of TetGen's files
     std::string artifact;  ///< the file that it is in: of several the first that is there
     CheckReport report;

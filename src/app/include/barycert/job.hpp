@@ -52,7 +52,7 @@ struct MeshJob {
     Curved curved = Curved::isoparametric;                             ///< what becomes of curved cells
     CellInterpolation cell_interpolation = CellInterpolation::linear;  ///< of sampling and verification
 
-    /// Where the caller will write reports, after what it calls them: checked with the files of the job.
+    /// Reports that the caller will write: the name of each, for messages, and its path. Paths are checked as outputs.
     std::vector<std::pair<std::string, std::string>> reports = {};
     std::string program = "barycert";  ///< how the user calls the program, for commands in messages
     /// Called by one thread at a time, which need not be the caller's.

@@ -64,8 +64,8 @@ struct PointLine {
 /// with the triangle, the feature on which the point lies, and the distance, negative inside; options.outside.limit
 /// bounds the distance. A map then has triangles, and weights are those of the nearest points (nearest projection).
 struct SampleJob : SamplingJob {
-    std::string points;                  ///< as for open_points; or
-    std::optional<PointLine> line = {};  ///< these
+    std::string points;                  ///< a file of points, as for open_points
+    std::optional<PointLine> line = {};  ///< points on a line; exactly one of `points`, `line` and `map` is set
     /// A plot of the values along the way from point to point, or of a series over its times, for each point: .png,
     /// .svg, .pdf. At most six curves.
     std::string plot;

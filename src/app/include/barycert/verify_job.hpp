@@ -1,4 +1,4 @@
-/// The job that holds the results that some tool wrote into a file against the exact ones.
+/// The job that compares the results in a file, written by any tool, with the exact results.
 ///
 /// Example:
 ///

@@ -74,7 +74,8 @@ struct View {
     Vector operator()(const Vector& p) const { return {p.dot(x), p.dot(y), p.dot(z)}; }
 };
 
-/// With the longest extent of the points to the right, and upwards the middle one, 1: from above; or the least, 0.
+/// Returns the view with the longest extent of the points to the right. If `up` is 1, the middle extent points upwards
+/// (seen from above); if it is 0, the least.
 View broad_view(const std::vector<Vector>& points, int up);
 
 /// The edge of a tetrahedron with the smallest dihedral angle, as two corners.

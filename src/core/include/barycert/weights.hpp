@@ -3,9 +3,9 @@
 /// Input: coordinates and nodal values as doubles (of linear fields also as floats). Output: doubles.
 ///
 /// Laws (each is a test of that name in tests/core):
-///   W1  A weight has the sign of the exact one. It is zero only if the exact one is zero, and then +0, or if that
-///       rounds to zero (at most half of the min subnormal), and then a zero with its sign. weight_signs tells the two
-///       apart.
+///   W1  A weight has the sign of the exact weight. It is +0 if the exact weight is zero. If the exact weight is not
+///       zero but rounds to zero (at most half of the min subnormal), it is a zero with the exact weight's sign.
+///       weight_signs tells these two cases apart.
 ///   W2  Each weight is the exact one rounded to nearest, ties to even, subnormal results and infinity included.
 ///   V1  Each value is the exact sum of weight (quadratic field: of shape function) times nodal value, rounded once in
 ///       the same way, for every component. An exact zero is +0, even if all nodal values are -0; what underflows to

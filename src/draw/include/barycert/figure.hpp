@@ -78,7 +78,7 @@ struct FigureGrid {
 
 enum class Axes : std::uint8_t { automatic, box, triad, none };
 
-/// Where it stands: the whole is in sight.
+/// The direction of the camera. Its distance is computed so that the whole figure is in sight (at zoom 1).
 struct FigureCamera {
     double azimuth = 30, elevation = 25;  ///< degrees, from the x axis towards y, and above the xy plane; z is upwards
     double zoom = 1;                      ///< above 1: larger than the window

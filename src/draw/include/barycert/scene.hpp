@@ -8,9 +8,9 @@
 /// is the lower left corner of the window; matrices act on columns. Depths are z/w, interpolated linearly in the
 /// window.
 ///
-/// A colour is three numbers from 0 to 1 in sRGB as it is stored, and is interpolated so; below 0 and above 1 it is
-/// drawn as these. A texture's colour is multiplied by the vertices' colour if there are both. Nothing is blended: a
-/// pixel takes over the opacity of its texel.
+/// A colour is three numbers from 0 to 1 in sRGB as it is stored, and is interpolated in this form. A number below 0 is
+/// drawn as 0, a number above 1 as 1. If there are both, a texture's colour is multiplied by the vertices' colour.
+/// Nothing is blended: a pixel gets the opacity of its texel.
 ///
 /// Example:
 ///

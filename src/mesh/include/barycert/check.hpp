@@ -22,7 +22,7 @@
 /// necessary, too, up to the choice of cells in P4: every simplicial complex is certified.
 ///
 /// A certificate also requires
-///   P5  neighbours and faces that came with the mesh (.neigh, .face) are those of its cells, and none if these are
+///   P5  neighbours and faces that came with the mesh (.neigh, .face) are those of its cells, and no faces came with
 ///       triangles; arrays of nodes and cells (fields, markers, mid-edge nodes) have the right sizes and indices.
 ///
 /// Time: O(n log n), plus about 0.1 microseconds for each pair of boundary facets whose boxes meet: few in most meshes,
@@ -65,7 +65,7 @@ struct CheckOptions {
     int threads = 0;           ///< 0: one per core
     bool delaunay = false;     ///< test every interior facet
     const Plc* plc = nullptr;  ///< test conformity to its facets (tetrahedra only)
-    /// For check_plc: facets are turned, as polygons of surfaces are, and two are turned alike or not.
+    /// For check_plc: facets have two sides, as polygons of a surface have; neighbours turned differently are defects.
     bool turned_facets = false;
     std::size_t examples = 10;  ///< max number of places kept of each defect
     std::size_t contacts = 20;  ///< max number of pairs of cells for which a common point is computed

@@ -18,8 +18,8 @@
 namespace barycert {
 
 struct FixOptions {
-    bool nodes = true;        ///< merge nodes of cells that coincide, and mid-edge nodes likewise or of one edge then
-    double merge_within = 0;  ///< and those at most so far apart, chains of them included
+    bool nodes = true;        ///< merge coincident nodes of cells; also mid-edge nodes that coincide or share an edge
+    double merge_within = 0;  ///< merge also nodes at most so far apart, or linked by a chain of such nodes
     bool cells = true;        ///< drop cells that are degenerate or name a node twice, and all but one of duplicates
     bool orientation = true;  ///< turn negative cells
     int threads = 0;          ///< 0: one per core

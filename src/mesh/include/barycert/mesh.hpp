@@ -81,13 +81,13 @@ struct Mesh {
     /// first of each.
     struct Shapes {
         std::vector<std::uint8_t> types;      ///< VTK's numbers, 5 to 16 and 42; empty in a mesh of simplices
-        std::vector<std::int64_t> ends;       ///< where the nodes of each end
-        std::vector<Index> nodes;             ///< of all, in VTK's order
-        std::vector<std::int64_t> face_ends;  ///< where the faces of each end, if some are polyhedra; else empty
-        std::vector<std::int64_t> ring_ends;  ///< where the nodes of each face of polyhedra end
-        std::vector<Index> rings;             ///< these nodes
-        std::vector<Index> parts;             ///< the first cell of each, which has one or more, and the number of all
-        std::vector<std::uint16_t> inside;    ///< of each cell, what of its boundary lies inside (mesh/pulling.hpp)
+        std::vector<std::int64_t> ends;       ///< for each shape, the end of its nodes in `nodes`
+        std::vector<Index> nodes;             ///< the nodes of all shapes, each in VTK's order
+        std::vector<std::int64_t> face_ends;  ///< for each shape, the end of its faces; empty if there are no polyhedra
+        std::vector<std::int64_t> ring_ends;  ///< for each face of a polyhedron, the end of its nodes in `rings`
+        std::vector<Index> rings;             ///< the nodes of the faces of polyhedra
+        std::vector<Index> parts;             ///< for each shape, the first of its cells; then the number of all cells
+        std::vector<std::uint16_t> inside;    ///< for each cell, which facets and edges lie inside (mesh/pulling.hpp)
 
         std::size_t count() const { return types.size(); }
         std::span<const Index> nodes_of(std::size_t shape) const {
@@ -172,11 +172,11 @@ private:
 struct CurvedCells {
     std::uint64_t cells = 0;          ///< with a node off by a curve
     double max_deviation = 0;         ///< of such nodes
-    std::uint64_t rounded_cells = 0;  ///< these or others: with a node off by rounding
-    double max_rounded = 0;           ///< of such nodes
+    std::uint64_t rounded_cells = 0;  ///< cells with a node off by rounding, curved or not
+    double max_rounded = 0;           ///< the largest deviation of such a node
     std::uint64_t by_corners = 0;     ///< Mesh::by_corners
-    bool mapped = false;              ///< they are taken as they are
-    bool rounded_too = false;         ///< then nodes off by rounding as well: the mesh has shapes
+    bool mapped = false;              ///< curved cells are taken as they are
+    bool rounded_too = false;         ///< if `mapped`, nodes off by rounding are taken as they are, too (Mesh::shapes)
 };
 
 /// Measures the curved cells. Ignores cells with an index that is no node, and coordinates that are not finite. `each`,

@@ -19,8 +19,8 @@
 ///       of points inside, on boundaries and outside.
 /// With Rounding::plain, owners and features are exact as well; values are computed in plain double.
 ///
-/// Quantities are made of fields by expressions, wherever a field is named; a field that has the expression as its name
-/// goes before. NAME may be an expression again:
+/// Quantities: wherever a field is named, an expression of fields may stand instead. If the whole expression is the
+/// name of a field, that field is taken. NAME may itself be an expression:
 ///   NAME.x, NAME.2  a component by its axis or number.
 ///   grad(NAME)      the gradient, in the owner, of the interpolated function of a field of nodes. It jumps where cells
 ///                   meet, and is that of the lowest cell there. Columns grad(NAME).0, .1, ...: the derivatives of

@@ -12,9 +12,9 @@
 ///   K1  Each coordinate and each value of a carried field of nodes is that of the exact crossing, from the exact
 ///       parameter on the edge, rounded once to nearest, ties to even; an exact zero is +0. It is NaN if a value at an
 ///       end of the edge is not finite. At a node it is that of the node.
-///   K2  Watertight: an edge of the surface belongs to as many triangles one way as the other, unless it lies in a
-///       facet that only one of the cells used has. Used is every cell without NaN and infinity. In the plane: a point
-///       begins as many segments as it ends. Requires that no facet has more than two cells, one on each side, as in a
+///   K2  Watertight: along each edge of the surface as many triangles go one way as the other, unless the edge lies in
+///       a facet that only one used cell has. A cell is used if g is finite at all of its nodes. In the plane: as many
+///       segments begin at a point as end there. Requires: each facet has at most two cells, one on each side, as in a
 ///       certified mesh.
 ///   K3  Oriented as the boundary of the set: normals (right-hand rule) point out of the set, towards lower values, or
 ///       along n; in the plane the set is to the left of its segments. The orientation of cells has no influence. A
@@ -66,7 +66,7 @@ struct Surface {
     /// For each cell, the polygon of the file or the facet of the PLC that it is part of; ascending. Empty: each cell
     /// is one.
     std::vector<Mesh::Index> facets;
-    std::size_t facet_count = 0;  ///< of the file, those that have no cells among them; 0: not known
+    std::size_t facet_count = 0;  ///< facets in the file, including those without cells; 0: not known
     int index_base = 0;           ///< 0 or 1: the base of the file it came from
     Notes notes;                  ///< what its reader left out, converted or guessed
 

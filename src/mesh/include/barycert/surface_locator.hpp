@@ -83,7 +83,7 @@ struct SurfaceLocation {
 struct SurfaceNearest : Nearest {
     std::array<double, 3> point{};    ///< the nearest point
     std::array<double, 3> weights{};  ///< of `nodes`
-    bool on = false;                  ///< the point is on the triangle; a distance that is not zero may round to it
+    bool on = false;                  ///< the point is exactly on the triangle; other distances may round to 0, too
 };
 
 /// A triangle that a segment meets.
@@ -120,8 +120,8 @@ public:
     Status nearest(std::span<const double> points, double limit, std::span<SurfaceNearest> found,
                    int threads = 0) const;
 
-    /// N1 for a given triangle a point; finds nothing for -1. A map (map.hpp) knows these triangles without a search.
-    /// Error: also a number that is none of a triangle.
+    /// Finds, by N1, the nearest point of one given triangle for each point; nothing where the triangle is -1. A map
+    /// (map.hpp) stores these triangles, so no search is needed. Error: as nearest(); a triangle that does not exist.
     Status nearest_on(std::span<const Mesh::Index> triangles, std::span<const double> points,
                       std::span<SurfaceNearest> found, int threads = 0) const;
 

@@ -1,14 +1,15 @@
 /// Cells that are images of their reference cells: who owns a point, and values there.
 ///
 /// Products. Hexahedra, voxels, wedges, pyramids and quadrilaterals. Their edges are straight, and the sides through
-/// four nodes that are not in one plane are pieces of hyperbolic paraboloids. Points that only one of the cell and its
-/// parts (mesh/pulling.hpp) contains lie in the tetrahedra of the nodes of such sides: a point in none of them is in
-/// the cell if it is in one of its parts; one that is in some, if it is on the inner side of each of these paraboloids,
-/// which are the points with a c = b d, where a, b, c, d are its weights in the tetrahedron. The tetrahedron meets no
-/// flat side but in an edge: its nodes beyond that edge are joined to the flat side's nodes by edges, along which the
-/// Jacobian is positive at both ends. So its faces that are parts' alone lie inside the cell. Where a cell cannot be
-/// cut into parts, the triangles of its sides tell of points outside those tetrahedra: on a triangle, or inside by
-/// their winding number.
+/// four nodes that are not in one plane are pieces of hyperbolic paraboloids. The cell and the union of its parts
+/// (mesh/pulling.hpp) differ only in the tetrahedra that the nodes of such sides span. A point in none of these
+/// tetrahedra is in the cell if it is in one of the parts. A point in some of them is in the cell if it is on the inner
+/// side of each of their paraboloids. A paraboloid has the points with a c = b d, where a, b, c, d are the weights of
+/// the point in the tetrahedron. The tetrahedron meets a flat side only in an edge: its nodes beyond that edge are
+/// joined to the flat side's nodes by edges, along which the Jacobian is positive at both ends. So its faces that
+/// belong to parts alone lie inside the cell. If a cell cannot be cut into parts, the triangles of its sides decide for
+/// points outside these tetrahedra: a point is in the cell if it is on a triangle, or if their winding number around it
+/// is not 0.
 ///
 /// Curved simplices of order 2 to 4. A point is in the cell if Newton's method finds it there, proved, and not if the
 /// cell is proved to have it nowhere else (core/isoparametric). Facets whose edges are all straight are flat, and
