@@ -32,12 +32,8 @@ function(barycert_join target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
 endfunction()
 
-# barycert_cold(TARGET [PLAIN]): for code in which no time is spent, as that which reads options or writes words, and tests: -O3 takes
-# half as long again to compile. PLAIN: where BARYCERT_QUICK is set, -O0. Not for tests that judge exactly themselves: they take their time.
+# barycert_cold(TARGET): for code in which no time is spent, as that which reads options or writes words, and tests: -O3
+# takes half as long again to compile. Not -O0, for exact judges of tests take their time.
 function(barycert_cold target)
-  set(level -O1)
-  if(BARYCERT_QUICK AND "PLAIN" IN_LIST ARGN)
-    set(level -O0)
-  endif()
-  target_compile_options(${target} PRIVATE $<$<NOT:$<CONFIG:Debug>>:${level}>)
+  target_compile_options(${target} PRIVATE $<$<NOT:$<CONFIG:Debug>>:-O1>)
 endfunction()

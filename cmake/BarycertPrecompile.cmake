@@ -10,7 +10,7 @@ endif()
 set(BARYCERT_STANDARD_HEADERS <algorithm> <array> <atomic> <cmath> <cstdint> <filesystem> <functional> <limits> <map> <memory> <mutex>
   <numeric> <optional> <ranges> <set> <span> <sstream> <string> <string_view> <unordered_map> <variant> <vector>)
 
-# barycert_precompile(TARGET KIND): what all targets of a kind share: LIBRARY, COLD_LIBRARY, PROGRAM, TEST, PLAIN_TEST. Sources with options of their
+# barycert_precompile(TARGET KIND): what all targets of a kind share: LIBRARY, COLD_LIBRARY, PROGRAM, TEST. Sources with options of their
 # own read headers themselves. Call it from the folder of the target, at its end.
 function(barycert_precompile target kind)
   # Clang wants every macro of a target known when headers are precompiled: they cannot be shared.
@@ -47,12 +47,10 @@ function(barycert_precompiled headers kind)
   set(more_PROGRAM <fmt/format.h> <CLI/CLI.hpp>)
   set(links_TEST GTest::gtest rapidcheck)
   set(more_TEST <gtest/gtest.h> <rapidcheck.h>)
-  set(links_PLAIN_TEST ${links_TEST})
-  set(more_PLAIN_TEST ${more_TEST})
-  find_package(nlohmann_json CONFIG QUIET)
+  find_package(nlohmann_json CONFIG QUIET)  # tests of some libraries do without
   if(nlohmann_json_FOUND)
-    list(APPEND links_PLAIN_TEST nlohmann_json::nlohmann_json)
-    list(APPEND more_PLAIN_TEST <nlohmann/json.hpp>)
+    list(APPEND links_TEST nlohmann_json::nlohmann_json)
+    list(APPEND more_TEST <nlohmann/json.hpp>)
   endif()
   file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/${headers}.cpp CONTENT "")
   add_library(${headers} OBJECT ${PROJECT_BINARY_DIR}/${headers}.cpp)
@@ -60,9 +58,7 @@ function(barycert_precompiled headers kind)
   if(kind MATCHES "LIBRARY")
     set_target_properties(${headers} PROPERTIES POSITION_INDEPENDENT_CODE ON)
   endif()
-  if(kind STREQUAL "PLAIN_TEST")
-    barycert_cold(${headers} PLAIN)
-  elseif(NOT kind STREQUAL "LIBRARY")
+  if(NOT kind STREQUAL "LIBRARY")
     barycert_cold(${headers})
   endif()
   target_precompile_headers(${headers} PRIVATE ${BARYCERT_STANDARD_HEADERS} ${more_${kind}})
