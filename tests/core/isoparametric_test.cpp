@@ -1,6 +1,7 @@
 // Values on isoparametric cells against Newton's method in 100 digits with shape functions written apart, and against
 // rational numbers where the point of the reference cell is known.
 #include "core/isoparametric/ball.hpp"
+#include "core/isoparametric/gradient.hpp"
 #include "core/isoparametric/inverse.hpp"
 #include "core/isoparametric/lanes.hpp"
 
@@ -65,33 +66,67 @@ struct Cell {
     }
 };
 
-/// The value at the point, in 100 digits; derivatives by differences of 1e-40.
-double value_by_newton(const Cell& cell, const double* p, Digits x0, Digits x1, Digits x2) {
-    std::array<Digits, 3> x{x0, x1, x2};
-    const std::size_t d = cell.dimension();
-    const Digits h("1e-40");
-    for (int step = 0; step < 14; ++step) {
-        std::array<std::array<Digits, 4>, 3> a{};
-        const auto here = cell.point_and_value<Digits>(x[0], x[1], x[2]);
-        for (std::size_t j = 0; j < d; ++j) {
-            auto moved = x;
-            moved[j] += h;
-            const auto there = cell.point_and_value<Digits>(moved[0], moved[1], moved[2]);
-            for (std::size_t k = 0; k < d; ++k) a[k][j] = (there[k] - here[k]) / h;
+/// Solves d equations, a row each with the right side behind it.
+template <class T>
+std::array<T, 3> solved(std::array<std::array<T, 4>, 3> a, std::size_t d) {
+    for (std::size_t c = 0; c < d; ++c) {
+        std::size_t pivot = c;
+        for (std::size_t i = c; i < d; ++i) pivot = abs(a[i][c]) > abs(a[pivot][c]) ? i : pivot;
+        std::swap(a[pivot], a[c]);
+        for (std::size_t i = 0; i < d; ++i) {
+            if (i == c) continue;
+            const T f = a[i][c] / a[c][c];
+            for (std::size_t j = c; j <= d; ++j) a[i][j] -= f * a[c][j];
         }
-        for (std::size_t k = 0; k < d; ++k) a[k][d] = Digits(p[k]) - here[k];
-        for (std::size_t c = 0; c < d; ++c) {
-            std::size_t pivot = c;
-            for (std::size_t i = c; i < d; ++i) pivot = abs(a[i][c]) > abs(a[pivot][c]) ? i : pivot;
-            std::swap(a[pivot], a[c]);
-            for (std::size_t i = 0; i < d; ++i) {
-                if (i == c) continue;
-                const Digits f = a[i][c] / a[c][c];
-                for (std::size_t j = c; j <= d; ++j) a[i][j] -= f * a[c][j];
-            }
-        }
-        for (std::size_t k = 0; k < d; ++k) x[k] += a[k][d] / a[k][k];
     }
+    std::array<T, 3> x{};
+    for (std::size_t k = 0; k < d; ++k) x[k] = a[k][d] / a[k][k];
+    return x;
+}
+
+/// Derivatives of the point and the value by each variable, which all are of degree 1: exact differences.
+template <class T>
+std::array<std::array<T, 4>, 3> derivatives(const Cell& cell, const std::array<T, 3>& x) {
+    std::array<std::array<T, 4>, 3> by{};
+    for (std::size_t j = 0; j < cell.dimension(); ++j) {
+        auto low = x, high = x;
+        low[j] = 0;
+        high[j] = 1;
+        const auto from = cell.point_and_value<T>(low[0], low[1], low[2]);
+        const auto to = cell.point_and_value<T>(high[0], high[1], high[2]);
+        for (std::size_t k = 0; k < 4; ++k) by[j][k] = to[k] - from[k];
+    }
+    return by;
+}
+
+/// The gradient at x: J^T g = f.
+template <class T>
+std::array<T, 3> gradient_at(const Cell& cell, const std::array<T, 3>& x) {
+    auto rows = derivatives(cell, x);
+    for (auto& row : rows) row[cell.dimension()] = row[3];
+    return solved(rows, cell.dimension());
+}
+
+/// The reference coordinates of the point, in 100 digits.
+std::array<Digits, 3> by_newton(const Cell& cell, const double* p, const std::array<double, 3>& about) {
+    std::array<Digits, 3> x{about[0], about[1], about[2]};
+    const std::size_t d = cell.dimension();
+    for (int step = 0; step < 14; ++step) {
+        const auto here = cell.point_and_value<Digits>(x[0], x[1], x[2]);
+        const auto by = derivatives(cell, x);
+        std::array<std::array<Digits, 4>, 3> a{};
+        for (std::size_t k = 0; k < d; ++k) {
+            for (std::size_t j = 0; j < d; ++j) a[k][j] = by[j][k];
+            a[k][d] = Digits(p[k]) - here[k];
+        }
+        const auto moved = solved(a, d);
+        for (std::size_t k = 0; k < d; ++k) x[k] += moved[k];
+    }
+    return x;
+}
+
+double value_by_newton(const Cell& cell, const double* p, double x0, double x1, double x2) {
+    const auto x = by_newton(cell, p, {x0, x1, x2});
     return cell.point_and_value<Digits>(x[0], x[1], x[2])[3].convert_to<double>();
 }
 
@@ -173,6 +208,96 @@ TEST_P(Isoparametric, V1TiesOnLatticesAreRoundedToEven) {
     EXPECT_GT(exact, 200U);
 }
 
+TEST_P(Isoparametric, G1GradientsAreRoundedOnce) {
+    const Reference& reference = *linear_reference(GetParam());
+    for (int i = 0; i < 1000; ++i) {
+        const double scale = std::ldexp(1.0, i % 7 == 0 ? static_cast<int>(random() % 600) - 300 : 0);
+        const Cell c = cell(0.15, scale, i % 5 == 0 ? 1000 * scale : 0);
+        const auto x = reference_point();
+        const auto at = c.point_and_value<double>(x[0], x[1], x[2]);
+        std::array<double, 3> g{};
+        ASSERT_EQ(evaluate_gradients(reference, c.places(), at.data(), c.values.data(), 1, g.data()).certainty,
+                  Certainty::proved);
+        const auto expected = gradient_at(c, by_newton(c, at.data(), x));
+        for (std::size_t k = 0; k < c.dimension(); ++k) ASSERT_EQ(g[k], expected[k].convert_to<double>()) << i;
+        ASSERT_EQ(gradients_at_place(reference, c.places(), x, c.values.data(), 1, g.data()).certainty,
+                  Certainty::proved);
+        const auto there = gradient_at<Rational>(c, {Rational(x[0]), Rational(x[1]), Rational(x[2])});
+        for (std::size_t k = 0; k < c.dimension(); ++k) ASSERT_EQ(g[k], there[k].convert_to<double>()) << i;
+    }
+}
+
+// Of few bits all is rational; some derivatives are 0, and there are ties.
+TEST_P(Isoparametric, G1GradientsOnLattices) {
+    const Reference& reference = *linear_reference(GetParam());
+    std::size_t zeros = 0, proper = 0;
+    for (int i = 0; i < 2000; ++i) {
+        Cell c = cell(0, 64, 0);
+        const bool affine = i % 2 == 0;
+        for (std::size_t node = 0; node < c.at.size(); ++node) {
+            for (std::size_t k = 0; k < c.dimension(); ++k)
+                c.at[node][k] += affine ? 0 : static_cast<double>(random() % 17) - 8;
+            c.values[node] = static_cast<double>(random() % 3);
+        }
+        if (proved_orientation(reference, c.places()) != 1) continue;
+        std::array<double, 3> x{static_cast<double>(random() % 5) / 4, static_cast<double>(random() % 5) / 4,
+                                GetParam() == 9 ? 0 : static_cast<double>(random() % 4) / 4};
+        if (GetParam() == 13 && x[0] + x[1] > 1) x = {1 - x[0], 1 - x[1], x[2]};
+        const auto sums = c.point_and_value<Rational>(Rational(x[0]), Rational(x[1]), Rational(x[2]));
+        std::array<double, 3> at{}, g{};
+        for (std::size_t k = 0; k < 3; ++k) at[k] = sums[k].convert_to<double>();
+        ASSERT_EQ(evaluate_gradients(reference, c.places(), at.data(), c.values.data(), 1, g.data()).certainty,
+                  Certainty::proved)
+            << i;
+        const auto expected = gradient_at<Rational>(c, {Rational(x[0]), Rational(x[1]), Rational(x[2])});
+        for (std::size_t k = 0; k < c.dimension(); ++k) {
+            ASSERT_EQ(g[k], expected[k].convert_to<double>()) << i;
+            zeros += g[k] == 0 ? 1 : 0;
+        }
+        ++proper;
+    }
+    EXPECT_GT(proper, 1000U);
+    EXPECT_GT(zeros, 50U);
+}
+
+// The gradient of an affine function is that function's everywhere, 0 by some coordinates, though x is no fraction.
+TEST_P(Isoparametric, G1GradientsOfAffineFunctions) {
+    const Reference& reference = *linear_reference(GetParam());
+    for (int i = 0; i < 300; ++i) {
+        Cell c = cell(0, 64, 0);
+        for (auto& p : c.at) {
+            for (std::size_t k = 0; k < c.dimension(); ++k) p[k] = std::nearbyint(p[k] + uniform(-9, 9));
+        }
+        std::array<double, 3> slope{};
+        slope[static_cast<std::size_t>(i) % c.dimension()] = 3;
+        for (std::size_t node = 0; node < c.at.size(); ++node) {
+            c.values[node] = 7;
+            for (std::size_t k = 0; k < 3; ++k) c.values[node] += slope[k] * c.at[node][k];
+        }
+        const auto x = reference_point();
+        const auto at = c.point_and_value<double>(x[0], x[1], x[2]);
+        std::array<double, 3> g{1, 1, 1};
+        ASSERT_EQ(evaluate_gradients(reference, c.places(), at.data(), c.values.data(), 1, g.data()).certainty,
+                  Certainty::proved);
+        for (std::size_t k = 0; k < c.dimension(); ++k) ASSERT_EQ(g[k], slope[k]) << i;
+    }
+}
+
+TEST(IsoparametricValues, G1NoGradientAtTheApexAndOfNaN) {
+    Cell c{14, unit_cell(14), {1, 2, 3, 4, 5}};
+    const Reference& reference = *linear_reference(14);
+    std::array<double, 3> g{};
+    EXPECT_EQ(evaluate_gradients(reference, c.places(), c.at[4].data(), c.values.data(), 1, g.data()).certainty,
+              Certainty::not_found);
+    EXPECT_EQ(gradients_at_place(reference, c.places(), {0.5, 0.5, 1}, c.values.data(), 1, g.data()).certainty,
+              Certainty::not_found);
+    c.values[3] = NAN;
+    const std::array<double, 3> inside{0.5, 0.5, 0.25};
+    EXPECT_EQ(evaluate_gradients(reference, c.places(), inside.data(), c.values.data(), 1, g.data()).certainty,
+              Certainty::proved);
+    for (const double x : g) EXPECT_TRUE(std::isnan(x));
+}
+
 /// The field 3 x at x = 1 + 2^-52, between two doubles, where reference coordinates are no fractions.
 // Near the apex r and s are told by the direction from there alone. With w = 1 - t, Newton's method in 100 digits on
 // apex + w Q(r, s), where w and the point are scaled.
@@ -240,6 +365,13 @@ TEST(IsoparametricValues, V1PyramidsNearTheirApex) {
         const Evaluated found = evaluate(reference, c.places(), p.data(), 31, c.values.data(), 1, &value);
         ASSERT_EQ(found.certainty, Certainty::proved) << i;
         ASSERT_EQ(value, sum.convert_to<double>()) << i;
+        // The gradient is that at r, s on the base: it does not depend on w.
+        std::array<double, 3> g{};
+        ASSERT_EQ(evaluate_gradients(reference, c.places(), p.data(), c.values.data(), 1, g.data()).certainty,
+                  Certainty::proved)
+            << i;
+        const auto expected = gradient_at<Digits>(c, {x[0], x[1], 0});
+        for (std::size_t k = 0; k < 3; ++k) ASSERT_EQ(g[k], expected[k].convert_to<double>()) << i;
     }
 }
 

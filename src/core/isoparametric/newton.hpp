@@ -188,6 +188,27 @@ public:
         for (std::size_t i = 0; i < 4; ++i) n[i] = n[i] * w;
         n[4] = Ball<T>(1) - w;
     }
+    /// The Jacobian of the map at x as enclose() has it, [coordinate][variable], in units of offset(); and the
+    /// derivatives of functions() by the same variables, of slopes[node][variable]. All are times Reference::scale.
+    template <class T>
+    void derivatives(const std::array<Ball<T>, 3>& x, std::array<Vector<Ball<T>>, 3>& jacobian,
+                     std::array<Vector<Ball<T>>, max_nodes>& slopes) const {
+        std::array<Ball<T>, max_nodes> n;
+        shape_functions(of_, x, n, &slopes);
+        for (std::size_t k = 0; k < d_; ++k) {
+            for (std::size_t j = 0; j < d_; ++j) {
+                jacobian[k][j] = Ball<T>(0);
+                for (std::size_t i = 0; i < of_.nodes; ++i)
+                    jacobian[k][j] = jacobian[k][j] + slopes[i][j] * offset<T>(i, k);
+            }
+        }
+        if (shrink_ == 0) return;
+        const Ball<T> w = from_apex(x), by(T(std::ldexp(1.0, -shrink_)));
+        const Ball<T> base(0);
+        shape_functions(of_, {x[0], x[1], base}, n, &slopes);
+        for (std::size_t i = 0; i < 4; ++i) slopes[i] = {slopes[i][0] * w, slopes[i][1] * w, -(n[i] * by)};
+        slopes[4] = {base, base, by};
+    }
     /// Whether x, as enclose() has it, may be in the reference cell.
     template <class T>
     bool may_be_inside(const std::array<Ball<T>, 3>& x) const {
@@ -283,17 +304,9 @@ private:
     double contraction(double radius) const {
         std::array<Ball<double>, 3> x;
         for (std::size_t k = 0; k < 3; ++k) x[k] = {x_[k], k < d_ ? radius : 0};
-        std::array<Ball<double>, max_nodes> n;
-        std::array<Vector<Ball<double>>, max_nodes> dn;
-        shape_functions(of_, x, n, &dn);
+        std::array<Vector<Ball<double>>, max_nodes> slopes;
         std::array<Vector<Ball<double>>, 3> jacobian;
-        for (std::size_t k = 0; k < d_; ++k) {
-            for (std::size_t j = 0; j < d_; ++j) {
-                jacobian[k][j] = Ball<double>(0);
-                for (std::size_t i = 0; i < of_.nodes; ++i)
-                    jacobian[k][j] = jacobian[k][j] + dn[i][j] * offset<double>(i, k);
-            }
-        }
+        derivatives(x, jacobian, slopes);
         double most = 0;
         for (std::size_t row = 0; row < d_; ++row) {
             double sum = 0;

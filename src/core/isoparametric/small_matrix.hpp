@@ -27,6 +27,43 @@ Ball<T> inverse_of(int n) {
     }
 }
 
+/// 1 / x for all x of the ball: about y, with |1 / x - y| = |1 - x y| / |x|. Nothing where 0 may be one of them.
+template <class T>
+std::optional<Ball<T>> inverse_of(const Ball<T>& x) {
+    if (!x.sign()) return std::nullopt;
+    T y;
+    if constexpr (std::is_same_v<T, TwoDoubles>) {
+        const TwoDoubles about(1 / x.mid.high);
+        y = about + about * (TwoDoubles(1) - x.mid * about);
+    } else {
+        y = T(1) / x.mid;
+    }
+    const double least = (x.size() * (1 - 0x1p-40) - x.radius) * (1 - 0x1p-50);
+    const double off = (Ball<T>(1) - x * Ball<T>(y)).most();
+    return Ball<T>(y, off / least * (1 + 0x1p-48) + 0x1p-1000);
+}
+
+/// The cofactors of the first n rows and columns; n is 2 or 3.
+template <class N>
+std::array<std::array<N, 3>, 3> cofactors(const std::array<std::array<N, 3>, 3>& a, std::size_t n) {
+    std::array<std::array<N, 3>, 3> c;
+    if (n == 2) {
+        c[0][0] = a[1][1];
+        c[0][1] = -a[1][0];
+        c[1][0] = -a[0][1];
+        c[1][1] = a[0][0];
+        return c;
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t i1 = (i + 1) % 3, i2 = (i + 2) % 3;
+        for (std::size_t j = 0; j < 3; ++j) {
+            const std::size_t j1 = (j + 1) % 3, j2 = (j + 2) % 3;
+            c[i][j] = a[i1][j1] * a[i2][j2] - a[i1][j2] * a[i2][j1];
+        }
+    }
+    return c;
+}
+
 /// Gauss and Jordan: the first n columns of n rows become those of 1. False where that is not so.
 template <class Rows>
 bool eliminate(Rows& a, std::size_t n) {

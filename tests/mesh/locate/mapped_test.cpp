@@ -259,6 +259,74 @@ TEST(MappedCells, L1V1CellsOfAllTypes) {
     }
 }
 
+// By differences of the function of the owner, in long double; a point on a side is any's of its cells.
+TEST(MappedCells, G1GradientsAreThoseOfTheOwner) {
+    std::mt19937 random(6);
+    const auto uniform = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+    for (std::uint8_t type = 12; type <= 14; ++type) {
+        const Mesh mesh = warped_grid(2, 0.15, false, type, type);
+        const Sampler sampler =
+            Sampler::build(mesh, {"f", "grad(f)"}, {.interpolation = CellInterpolation::multilinear}).value();
+        EXPECT_EQ(sampler.columns(), (std::vector<std::string>{"f", "grad(f).0", "grad(f).1", "grad(f).2"}));
+        std::vector<double> points;
+        for (int i = 0; i < 600; ++i) points.push_back(uniform(0, 2));
+        const Table rows = sampler.sample(points).value();
+        std::size_t inside = 0;
+        for (std::size_t i = 0; i < rows.row_count(); ++i) {
+            const Index owner = mesh.cell_number(rows.cells[i]);
+            if (owner < 0) continue;
+            ++inside;
+            std::vector<double> values;
+            const auto nodes = nodes_of(mesh, static_cast<std::size_t>(owner), values);
+            const auto functions = [&](const std::array<Real, 3>& at) { return shape_functions(type, at); };
+            for (std::size_t k = 0; k < 3; ++k) {
+                std::array<double, 3> low{points[3 * i], points[3 * i + 1], points[3 * i + 2]}, high = low;
+                constexpr double h = 0x1p-15;
+                low[k] -= h;
+                high[k] += h;
+                const Real to = invert(3, nodes, values, high.data(), functions, {0.4, 0.4, 0.4}).value;
+                const Real from = invert(3, nodes, values, low.data(), functions, {0.4, 0.4, 0.4}).value;
+                const auto by = static_cast<double>((to - from) / (static_cast<Real>(high[k]) - low[k]));
+                ASSERT_NEAR(rows.values[4 * i + 1 + k], by, 1e-6 * (1 + std::abs(by))) << int{type} << ' ' << i;
+            }
+        }
+        EXPECT_GT(inside, type == 14 ? 20U : 100U);
+    }
+}
+
+// An affine function has the same gradient everywhere: in cells with maps and without, and beyond them.
+TEST(MappedCells, G1GradientsOfAffineFunctionsInsideAndOutside) {
+    for (const bool curved : {false, true}) {
+        Mesh mesh = curved ? barycert::testing::curved_ball(3) : warped_grid(2, 0.15, false, 3);
+        mesh.point_fields = {{"f", 1, std::vector<double>(mesh.point_count())}};
+        Field& field = mesh.point_fields.front();
+        for (std::size_t node = 0; node < mesh.point_count(); ++node) {
+            // Of few bits, so that the values are exact.
+            for (std::size_t k = 0; k < 3; ++k)
+                mesh.points[3 * node + k] = std::round(0x1p12 * mesh.points[3 * node + k]) * 0x1p-12;
+            field.data[node] = 3 * mesh.points[3 * node] - 2 * mesh.points[3 * node + 2] + 7;
+        }
+        const Sampler sampler =
+            Sampler::build(mesh, {"grad(f)", "grad(f).x"}, {.interpolation = CellInterpolation::multilinear}).value();
+        std::mt19937 random(2);
+        std::vector<double> points;
+        for (int i = 0; i < 300; ++i)
+            points.push_back(std::uniform_real_distribution(curved ? -1.2 : -0.5, curved ? 1.2 : 2.5)(random));
+        for (const Outside outside : {Outside::nan, Outside::nearest, Outside::extrapolate}) {
+            const Table rows = sampler.sample(points, {.outside = {outside}}).value();
+            std::size_t inside = 0;
+            for (std::size_t i = 0; i < rows.row_count(); ++i) {
+                if (outside == Outside::nan && rows.cells[i] < 0) continue;
+                ++inside;
+                const std::vector<double> row(rows.values.begin() + static_cast<std::ptrdiff_t>(4 * i),
+                                              rows.values.begin() + static_cast<std::ptrdiff_t>(4 * i + 4));
+                ASSERT_EQ(row, (std::vector<double>{3, 0, -2, 3})) << i;
+            }
+            EXPECT_GT(inside, 20U);
+        }
+    }
+}
+
 // Hexahedra that no cut into tetrahedra fits, but whose maps are injective: nowhere as linear cells, told; as
 // multilinear ones where their maps have them.
 TEST(MappedCells, L1V1CellsWithoutParts) {

@@ -25,9 +25,10 @@
 ///   grad(NAME)      the gradient, in the owner, of the interpolated function of a field of nodes. It jumps where cells
 ///                   meet, and is that of the lowest cell there. Columns grad(NAME).0, .1, ...: the derivatives of
 ///                   component 0 by x, y, z, then of component 1. Each is the exact one rounded once, to nearest, ties
-///                   to even. At a point outside, under both policies, it is that of the nearest cell; on cells of
-///                   second order evaluated at the nearest point with rounded coordinates (nearest), or at the point
-///                   itself (extrapolate).
+///                   to even; NaN at the apex of a pyramid, where there is none. At a point outside, under both
+///                   policies, it is that of the nearest cell; on cells of second order, and in cells with maps,
+///                   evaluated at the nearest point with rounded coordinates (nearest), or at the point itself
+///                   (extrapolate).
 ///   |NAME|          the Euclidean length. For a field of nodes it is the length of the components at the point, after
 ///                   each was rounded. With up to nine components it differs from the exact length by less than 2 units
 ///                   in the last place (1.51 where the length is not subnormal); for a field of cells by less than 0.76
@@ -35,7 +36,8 @@
 ///   mean(NAME)      a field of nodes made from a field of cells, and interpolated: the value at a node is the mean
 ///                   over all cells that have it, weighted by their volumes (areas; with straight sides), exact and
 ///                   rounded once. It is NaN where a value of a cell that is not degenerate is not finite.
-/// With Rounding::plain, gradients and means are correctly rounded as well, except gradients on cells of second order.
+/// With Rounding::plain, gradients and means are correctly rounded as well, except gradients on cells of second order
+/// with straight sides.
 ///
 /// Example:
 ///

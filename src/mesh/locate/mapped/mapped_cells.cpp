@@ -17,6 +17,7 @@
 #include "barycert/predicates.hpp"
 #include "barycert/simplex.hpp"
 #include "core/base/finite.hpp"
+#include "core/isoparametric/gradient.hpp"
 #include "core/isoparametric/inverse.hpp"
 #include "core/isoparametric/lanes.hpp"
 #include "core/shape_functions.hpp"
@@ -254,6 +255,12 @@ iso::Evaluated MappedCells::evaluate(Mesh::Index cell, Feature feature, const do
     const std::uint64_t active = base::all_finite(scratch) ? ~std::uint64_t{0} : active_nodes(whole(cell), point);
     // NOLINTNEXTLINE(clang-analyzer-core.NonNullParamChecker): without a map the point was at a node
     return iso::evaluate(*reference, maps_.places(whole(cell)), point, active, scratch.data(), components, out);
+}
+
+iso::Evaluated MappedCells::gradients(Mesh::Index cell, const double* point, const Field& field, double* out) const {
+    Scratch values;
+    const std::size_t own = whole(cell), components = gather(maps_.nodes(own).all(), {&field}, values);
+    return iso::evaluate_gradients(*maps_.reference(own), maps_.places(own), point, values.data(), components, out);
 }
 
 // On lanes.

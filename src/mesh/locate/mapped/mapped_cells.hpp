@@ -96,6 +96,9 @@ public:
     core::isoparametric::Evaluated evaluate(Mesh::Index cell, Feature feature, const double* point,
                                             const std::vector<const Field*>& fields, Scratch& scratch,
                                             double* out) const;
+    /// Gradients of all components of a field of nodes in a mapped cell (core/isoparametric/gradient.hpp).
+    core::isoparametric::Evaluated gradients(Mesh::Index cell, const double* point, const Field& field,
+                                             double* out) const;
     /// Cases for core/isoparametric/lanes.hpp.
     struct Batch {
         static constexpr std::size_t max = core::isoparametric::max_lanes;
@@ -139,6 +142,10 @@ public:
     core::isoparametric::Evaluated evaluate_beyond(Mesh::Index cell, const PointOnSide& on, const double* point,
                                                    const std::vector<const Field*>& fields, Scratch& scratch,
                                                    double* out) const;
+    /// Gradients there: with `beyond` at the point itself, or else, and where nothing is found, at the nearest point,
+    /// its place in the reference cell rounded.
+    core::isoparametric::Evaluated gradients_outside(Mesh::Index cell, const PointOnSide& on, const double* point,
+                                                     bool beyond, const Field& field, double* out) const;
     /// The weights of both, each rounded once. Where nothing is found beyond, those on the side.
     mesh::CellMaps::Nodes weights_on_side(PointOnSide& on, double* out) const;
     mesh::CellMaps::Nodes weights_beyond(Mesh::Index cell, PointOnSide& on, const double* point, double* out) const;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "barycert/mesh.hpp"
+#include "core/isoparametric/gradient.hpp"
 #include "core/isoparametric/inverse.hpp"
 #include "core/isoparametric/patch.hpp"
 #include "core/shape_functions.hpp"
@@ -121,6 +122,23 @@ iso::Evaluated MappedCells::evaluate_beyond(Mesh::Index cell, const PointOnSide&
     const std::size_t components = gather(nodes.all(), fields, scratch);
     return iso::evaluate_beyond(reference, maps_.places(own), point, reference_place(reference, nodes, on),
                                 scratch.data(), components, out);
+}
+
+iso::Evaluated MappedCells::gradients_outside(Mesh::Index cell, const PointOnSide& on, const double* point, bool beyond,
+                                              const Field& field, double* out) const {
+    const std::size_t own = whole(cell);
+    const mesh::CellMaps::Nodes nodes = maps_.nodes(own);
+    const iso::Reference& reference = *maps_.reference(own);
+    const iso::Places places = maps_.places(own);
+    const std::array<double, 3> at = reference_place(reference, nodes, on);
+    Scratch values;
+    const std::size_t components = gather(nodes.all(), {&field}, values);
+    if (beyond) {
+        const iso::Evaluated found =
+            iso::evaluate_gradients_beyond(reference, places, point, at, values.data(), components, out);
+        if (found.certainty != iso::Certainty::not_found) return found;
+    }
+    return iso::gradients_at_place(reference, places, at, values.data(), components, out);
 }
 
 mesh::CellMaps::Nodes MappedCells::weights_on_side(PointOnSide& on, double* out) const {

@@ -155,8 +155,8 @@ private:
             // Points that are pushed get a whole row; where cells fill in values, they are linear.
             for (std::size_t point = first; filled_ && data_.has_rest() && point < last; ++point) {
                 if (found_.cells[point] >= 0)
-                    set_rest_of_row(data_, options_.rounding, found_.cells[point], nullptr,
-                                    found_.values.data() + data_.width * point);
+                    set_rest_of_row(data_, options_, {found_.cells[point], nullptr},
+                                    found_.values.data() + data_.width * point, counts_);
             }
         }
         sampler_->flush();

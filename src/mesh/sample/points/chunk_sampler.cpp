@@ -32,13 +32,21 @@
 namespace barycert::sample {
 namespace {
 
-/// The gradients of all components of a field of nodes, in a cell of second order.
-void gradients_at(const SamplerData& data, Rounding rounding, const Field& field, Mesh::Index cell, const double* point,
-                  double* out) {
+/// The gradients of all components of a field of nodes in a cell that is straight, or taken so.
+void straight_gradients(const SamplerData& data, Rounding rounding, const Field& field, const PlaceInCell& place,
+                        double* out) {
     const Mesh& mesh = *data.located().mesh;
     const Simplex simplex = data.index().simplex;
-    const CellNodes nodes(mesh, static_cast<std::size_t>(cell));
     const auto d = static_cast<std::size_t>(mesh.dimension), components = static_cast<std::size_t>(field.components);
+    if (mesh.mid_nodes.empty()) {
+        const auto corners = std::span(mesh.cells).subspan((d + 1) * static_cast<std::size_t>(place.cell), d + 1);
+        // Coordinates are finite, and sizes fit: there is no Error.
+        gradients(simplex, mesh.points, corners, NodalValues<double>{field.data, field.components},
+                  std::span(out, d * components))
+            .value();
+        return;
+    }
+    const CellNodes nodes(mesh, static_cast<std::size_t>(place.cell));
     std::array<double, 12> vertices{};
     for (std::size_t i = 0; i <= d; ++i) std::copy_n(mesh.point(nodes.at[i]), d, &vertices[d * i]);
     for (std::size_t k = 0; k < components; ++k) {
@@ -46,9 +54,25 @@ void gradients_at(const SamplerData& data, Rounding rounding, const Field& field
         for (std::size_t i = 0; i < nodes.count; ++i)
             values[i] = field.data[components * static_cast<std::size_t>(nodes.at[i]) + k];
         // Coordinates are finite, and the simplex has a gradient: there is no Error.
-        const Gradient g = *quadratic_gradient(simplex, vertices.data(), point, values.data(), rounding);
+        const Gradient g = *quadratic_gradient(simplex, vertices.data(), place.point, values.data(), rounding);
         std::copy_n(g.gradient.begin(), d, out + d * k);
     }
+}
+
+/// The same in any cell.
+void gradients_at(const SamplerData& data, const SampleOptions& options, const Field& field, const PlaceInCell& place,
+                  std::span<double> out, SampleCounts& counts) {
+    using core::isoparametric::Certainty, core::isoparametric::Evaluated;
+    const locate::MappedCells* const mapped = data.located().mapped.get();
+    if (mapped == nullptr || !mapped->is_mapped(place.cell))
+        return straight_gradients(data, options.rounding, field, place, out.data());
+    const bool beyond = options.outside.kind == Outside::extrapolate;
+    const Evaluated found =
+        place.on == nullptr ? mapped->gradients(place.cell, place.point, field, out.data())
+                            : mapped->gradients_outside(place.cell, *place.on, place.point, beyond, field, out.data());
+    counts.undecided += found.certainty == Certainty::undecided ? 1 : 0;
+    counts.max_off = std::max(counts.max_off, found.off);
+    if (found.certainty == Certainty::not_found) std::ranges::fill(out, std::numeric_limits<double>::quiet_NaN());
 }
 
 // Points outside.
@@ -110,17 +134,17 @@ void quadratic_projected(const SamplerData& data, Rounding rounding, std::size_t
 /// value at the orthogonal projection to the nearest vertex, edge or face; cell fields that of the nearest cell. On
 /// cells of second order the weights of the projection are rounded first, so that they remain those of a point of the
 /// cell, then the quadratic is evaluated there.
-void snapped_values(const SamplerData& data, Rounding rounding, const Nearest& nearest,
-                    const std::array<double, 3>& point, double* values, TierCounts& tiers) {
+void snapped_values(const SamplerData& data, const SampleOptions& options, const Nearest& nearest,
+                    const std::array<double, 3>& point, double* values, SampleCounts& counts) {
     const Mesh& mesh = *data.located().mesh;
     const auto cell = static_cast<std::size_t>(nearest.cell);
     const locate::NearFeature feature = locate::near_feature(nearest.nodes, mesh.points, data.index().dimension());
-    const bool correct = rounding == Rounding::correct, vertex = feature.count == 1;
+    const bool correct = options.rounding == Rounding::correct, vertex = feature.count == 1;
     TierCounts used;
     if (vertex || (!data.quadratic && !correct)) {
         plain_projected(data, feature, locate::weights_of(point, feature), values);
     } else if (data.quadratic && data.point_components != 0) {
-        quadratic_projected(data, rounding, cell, feature, locate::weights_of(point, feature), values, used);
+        quadratic_projected(data, options.rounding, cell, feature, locate::weights_of(point, feature), values, used);
     } else {
         for (std::size_t c = 0; c < data.point_components; ++c) {
             std::array<double, 3> f{};
@@ -133,30 +157,32 @@ void snapped_values(const SamplerData& data, Rounding rounding, const Nearest& n
         }
     }
     if (correct && data.point_components != 0) {
-        tiers.add(vertex ? Tier::filter : used.exact != 0 ? Tier::exact : Tier::double_double);
-        tiers.not_finite +=
+        counts.values.add(vertex ? Tier::filter : used.exact != 0 ? Tier::exact : Tier::double_double);
+        counts.values.not_finite +=
             std::any_of(values, values + data.point_components, [](double x) { return std::isnan(x); }) ? 1 : 0;
     }
     const bool asked = data.quadratic && !data.at_points.empty();
     const std::array<double, 3> at = asked ? locate::projection_on(point, feature) : point;
-    set_rest_of_row(data, rounding, nearest.cell, at.data(), values);
+    set_rest_of_row(data, options, {nearest.cell, at.data()}, values, counts);
 }
 
 }  // namespace
 
-void set_rest_of_row(const SamplerData& data, Rounding rounding, Mesh::Index cell, const double* point, double* row) {
+void set_rest_of_row(const SamplerData& data, const SampleOptions& options, const PlaceInCell& place, double* row,
+                     SampleCounts& counts) {
     double* to = row + data.point_components;
     for (const Field* field : data.cell_fields) {
         const auto components = static_cast<std::size_t>(field->components);
-        to = std::copy_n(field->data.begin() + static_cast<std::ptrdiff_t>(components * static_cast<std::size_t>(cell)),
-                         components, to);
+        to = std::copy_n(
+            field->data.begin() + static_cast<std::ptrdiff_t>(components * static_cast<std::size_t>(place.cell)),
+            components, to);
     }
     std::vector<double> numbers;
     for (const AtPoint& late : data.at_points) {
         std::span<const double> values(row + late.first, late.components);
         if (late.gradient) {
             numbers.resize(late.components);
-            gradients_at(data, rounding, *late.field, cell, point, numbers.data());
+            gradients_at(data, options, *late.field, place, numbers, counts);
             values = numbers;
         }
         if (late.component >= 0) values = values.subspan(static_cast<std::size_t>(late.component), 1);
@@ -241,7 +267,7 @@ void ChunkSampler::set_row(const locate::PointRecord& point, const Location& at,
     rows_.cells[point.number] = at.cell;
     rows_.features[point.number] = at.feature;
     for (std::size_t c = 0; c < data_.point_components; ++c) row(point)[c] = values[stride * c];
-    if (data_.has_rest()) set_rest_of_row(data_, options_.rounding, at.cell, point.at.data(), row(point));
+    if (data_.has_rest()) set_rest_of_row(data_, options_, {at.cell, point.at.data()}, row(point), counts_);
 }
 
 void ChunkSampler::straight(const locate::PointRecord* points, std::size_t count, const locate::Place* owner,
@@ -259,8 +285,8 @@ void ChunkSampler::straight(const locate::PointRecord* points, std::size_t count
         data_.quadratic ? interpolate_second_order(points, inside) : interpolate_linear(points, inside);
     for (std::size_t i = 0; data_.has_rest() && i < inside; ++i) {
         const locate::PointRecord& point = points[inside_[i].point];
-        set_rest_of_row(data_, options_.rounding, index.original[static_cast<std::size_t>(inside_[i].cell)],
-                        point.at.data(), row(point));
+        set_rest_of_row(data_, options_, {index.original[static_cast<std::size_t>(inside_[i].cell)], point.at.data()},
+                        row(point), counts_);
     }
 }
 
@@ -368,7 +394,7 @@ locate::Place ChunkSampler::outside(const locate::PointRecord& point) {
         return -1;
     }
     if (!snap) return data_.located().parts.places()[static_cast<std::size_t>(nearest.cell)];
-    snapped_values(data_, options_.rounding, nearest, point.at, row(point), counts_.values);
+    snapped_values(data_, options_, nearest, point.at, row(point), counts_);
     return -1;
 }
 
@@ -393,8 +419,7 @@ void ChunkSampler::outside_maps(const locate::PointRecord& point, const locate::
         const bool nan = std::any_of(values, values + data_.point_components, [](double x) { return std::isnan(x); });
         counts_.values.not_finite += nan ? 1 : 0;
     }
-    // There are no gradients where cells have maps: the point is not read.
-    set_rest_of_row(data_, options_.rounding, nearest.nearest.cell, point.at.data(), values);
+    set_rest_of_row(data_, options_, {nearest.nearest.cell, point.at.data(), nearest.on.get()}, values, counts_);
 }
 
 void ChunkSampler::leave_out(std::uint64_t count, std::uint32_t number) {

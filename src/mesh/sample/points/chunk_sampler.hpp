@@ -58,10 +58,18 @@ inline BlockRows make_room(FoundRows& rows, std::size_t count, std::size_t width
             rows.distances.empty() ? nullptr : rows.distances.data()};
 }
 
+/// Where quantities are computed that differ from point to point in a cell.
+struct PlaceInCell {
+    Mesh::Index cell;
+    const double* point;  ///< not read where there are no such quantities
+    /// Of a point outside, its nearest point in a mapped cell; nullptr: else.
+    const locate::PointOnSide* on = nullptr;
+};
+
 /// Sets the columns of a row besides the values of point fields, which stand: the values of the cell fields of the
-/// cell, and what is computed at the point. `point`: where gradients on cells of second order are evaluated; not read
-/// if there are none.
-void set_rest_of_row(const SamplerData& data, Rounding rounding, Mesh::Index cell, const double* point, double* row);
+/// cell, and what is computed at the point. Counts gradients that are not proved.
+void set_rest_of_row(const SamplerData& data, const SampleOptions& options, const PlaceInCell& place, double* row,
+                     SampleCounts& counts);
 
 /// Not shared between threads.
 class ChunkSampler {

@@ -65,7 +65,7 @@ public:
                 continue;
             }
             ++inside;
-            if (data_.has_rest()) set_rest_of_row(data_, options_.rounding, rows.cells[i], &points[d_ * i], row);
+            if (data_.has_rest()) set_rest_of_row(data_, options_, {rows.cells[i], &points[d_ * i]}, row, counts);
         }
         for (std::size_t f = 0; f < features.size(); ++f) counts.locations.add(static_cast<Feature>(f), features[f]);
         counts.without_value = count - inside;

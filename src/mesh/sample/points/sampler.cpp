@@ -149,13 +149,9 @@ Status arrange_columns(const Mesh& mesh, const std::vector<FieldChoice>& fields,
     std::vector<TableField> of_points, of_cells, late;
     for (const FieldChoice& asked : fields) {
         const auto is_gradient = [](const QuantityStep& step) { return step.kind == QuantityStep::Kind::gradient; };
-        const locate::MappedCells* const mapped = data.located().mapped.get();
-        if (mapped != nullptr && (mapped->has_products() || mapped->has_curves()) &&
-            std::ranges::any_of(asked.steps, is_gradient))
-            return Error{.code = "field.location",
-                         .what = "gradients are those of straight cells and their parts",
-                         .found = mapped->has_products() ? "multilinear interpolation" : "curved cells",
-                         .remedy = "take the interpolation linear, and straight sides"};
+        // In mapped cells a gradient differs from point to point.
+        const auto gradient = std::ranges::find_if(asked.steps, is_gradient);
+        const bool varies = data.located().mapped != nullptr && gradient != asked.steps.end();
         const auto asks_for_cells = [&](const QuantityStep& step) {
             return is_gradient(step) || step.kind == QuantityStep::Kind::mean;
         };
@@ -166,9 +162,10 @@ Status arrange_columns(const Mesh& mesh, const std::vector<FieldChoice>& fields,
         const Result<QuantityShape> shape = shape_of(mesh, asked);
         if (!shape) return shape.error();
         FieldChoice choice = asked;
-        make_fields(mesh, choice, choice.steps.size(), data.made);
+        const auto before = static_cast<std::size_t>(gradient - asked.steps.begin());
+        make_fields(mesh, choice, varies ? before : choice.steps.size(), data.made);
         const TableField column{name_of(asked), static_cast<int>(shape->components)};
-        if (shape->at_points) {
+        if (shape->at_points || varies) {
             late.push_back(column);
             data.at_points.push_back(at_points(mesh, choice));
         } else {
