@@ -81,6 +81,12 @@ bool may_be_of_iteration(const ValueErrors& e) {
                                        count(-19, single ? -7 : -12) <= e.values / 10);
 }
 
+/// Points and what is claimed of them.
+struct ClaimedBlock {
+    std::vector<double> points;
+    Claims claims;
+};
+
 class Verification {
 public:
     explicit Verification(const VerifyJob& job) : job_(job) {}
@@ -126,6 +132,7 @@ private:
         locator_ = jobs::build_locator(job_, mesh_, job_.options.threads);
         jobs::report_maps(job_, *locator_, report_);
         sampler_ = Sampler::build(*locator_, columns_.fields).value();
+        report_.interpolation = locator_->interpolation();
         report_.certified = locator_->certified();
         report_.contested_cells = locator_->contested_cells();
         report_.columns = sampler_->columns();
@@ -183,6 +190,7 @@ private:
         VerifyOptions options = job_.options;
         options.threads = 1;  // blocks go side by side
         choose_tolerance(first, options);
+        const ClaimedBlock asked_first{first.rows.points, claims_of(first)};
         const Verifier verifier(*sampler_, options);
         report_.ranges = verifier.ranges();
         report_.relative_to = verifier.relative_to();
@@ -192,8 +200,7 @@ private:
         report_.verdicts.columns.resize(report_.columns.size());
         const auto work = [&](jobs::BlockOfRows& block) {
             const Claims claims = claims_of(block);
-            block.found =
-                verifier.verify({block.rows.points, claims.cells, claims.inside, claims.values, block.first}).value();
+            block.found = verdicts_of(verifier, block.rows.points, claims, block.first);
         };
         const auto write = [&](const jobs::BlockOfRows& block) {
             report_.verdicts.add(block.found, job_.options.examples);
@@ -207,7 +214,37 @@ private:
             if (note.kind != Note::Kind::left_out) report_.notes.push_back(note);
         }
         note_iteration();
+        if (report_.verdicts.wrong() != 0) note_other_interpolation(asked_first, verifier, options);
         report_.seconds.sample += watch.lap();
+    }
+
+    static Verdicts verdicts_of(const Verifier& verifier, const std::vector<double>& points, const Claims& claims,
+                                std::uint64_t first) {
+        return verifier.verify({points, claims.cells, claims.inside, claims.values, first}).value();
+    }
+
+    /// Whether the other interpolation explains what is wrong in the first block.
+    void note_other_interpolation(const ClaimedBlock& asked, const Verifier& own, const VerifyOptions& options) {
+        if (mesh_.shapes.types.empty() && mesh_.is_listed()) return;
+        const CellInterpolation is = locator_->interpolation();
+        const CellInterpolation other =
+            is == CellInterpolation::linear ? CellInterpolation::multilinear : CellInterpolation::linear;
+        BuildOptions build = jobs::build_options(job_, job_.options.threads, Prove::never);
+        build.interpolation = other;
+        const Locator locator = Locator::build(mesh_, build).value();
+        if (locator.interpolation() == is) return;
+        const Sampler sampler = Sampler::build(locator, columns_.fields).value();
+        const std::uint64_t wrong = verdicts_of(own, asked.points, asked.claims, 0).wrong();
+        const std::uint64_t left = verdicts_of(Verifier(sampler, options), asked.points, asked.claims, 0).wrong();
+        if (4 * left >= wrong) return;
+        report_.notes.push_back(
+            {Note::Kind::guessed,
+             fmt::format("these values are those of {} interpolation: by it {} of the first {} are wrong, by {} "
+                         "interpolation {}; see job.cell_interpolation",
+                         name(other), left,
+                         jobs::counted(asked.points.size() / static_cast<std::size_t>(mesh_.dimension), "row"),
+                         name(is), wrong),
+             job_.results, true, "job.cell_interpolation"});
     }
 
     /// Curved sides and cut digits explain errors of that size as well, and are told.

@@ -18,6 +18,7 @@
 #include "app/report/common/terminal_text.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/job.hpp"
+#include "barycert/locator.hpp"
 #include "barycert/report.hpp"
 #include "barycert/result.hpp"
 #include "barycert/simplex.hpp"
@@ -72,9 +73,10 @@ std::string example_sentence(const VerifyReport& s, const WrongRow& row) {
 
 /// A command that shows what the exact answer is.
 std::string example_command(const VerifyReport& s, const WrongRow& row) {
-    return fmt::format("echo {} | {} sample {} --columns 1,2{} --on-boundary all{} --points - --output -",
+    return fmt::format("echo {} | {} sample {} --columns 1,2{} --on-boundary all{}{} --points - --output -",
                        coordinates(row.point, s.dimension, base::shortest, ","), s.program, shell_word(s.mesh),
-                       s.dimension == 3 ? ",3" : "", std::isnan(row.distance) ? " --nonfinite-points nan" : "");
+                       s.dimension == 3 ? ",3" : "", std::isnan(row.distance) ? " --nonfinite-points nan" : "",
+                       s.interpolation == CellInterpolation::linear ? "" : " --interpolation multilinear");
 }
 
 struct Kind {

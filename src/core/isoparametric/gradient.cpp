@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <type_traits>
 #include <vector>
@@ -13,6 +12,7 @@
 #include "core/isoparametric/ball.hpp"
 #include "core/isoparametric/component.hpp"
 #include "core/isoparametric/continuation.hpp"
+#include "core/isoparametric/inverse.hpp"
 #include "core/isoparametric/newton.hpp"
 #include "core/isoparametric/places.hpp"
 #include "core/isoparametric/small_matrix.hpp"

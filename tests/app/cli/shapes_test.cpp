@@ -1,5 +1,6 @@
 // Files of cells that are no simplices: rows, means and maps are of these, not of the simplices that they are cut into.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -101,6 +102,36 @@ TEST(Shapes, MapsAreOfOneInterpolation) {
         const Ended other = run(sample(plus(made.empty() ? multilinear : Words{}, {"--map", map})));
         EXPECT_EQ(other.code, 2);
         EXPECT_TRUE(contains(other.err, "the map was made of cells taken otherwise")) << other.err;
+    }
+}
+
+TEST(Shapes, ResultsOfTheOtherInterpolationAreToldAsSuch) {
+    const Scratch scratch;
+    const std::string mesh = scratch.put("two.vtk", two_hexahedra("1")), rows = scratch.path("rows.csv");
+    std::string points = "x,y,z\n";
+    for (int i = 1; i < 20; ++i) points += fmt::format("{},{},{}\n", 0.0987 * i, 0.3 + 0.02 * i, 0.9 - 0.03 * i);
+    scratch.put("p.csv", points);
+    const auto with = [&](const char* command, const char* how) {
+        return Words{command, mesh, "--interpolation", how};
+    };
+    for (const char* how : {"linear", "multilinear"}) {
+        const std::string other = how == std::string("linear") ? "multilinear" : "linear";
+        ASSERT_EQ(run(plus(with("sample", how), {"--points", scratch.path("p.csv"), "--output", rows})).code, 0);
+        EXPECT_EQ(run(plus(with("verify", how), {"--results", rows})).code, 0);
+        const Ended wrong = run(plus(with("verify", other.c_str()), {"--results", rows}));
+        EXPECT_EQ(wrong.code, 1);
+        EXPECT_TRUE(
+            contains(wrong.out, fmt::format("these values are those of {} interpolation: by it 0 of the first 19 "
+                                            "rows are wrong, by {} interpolation",
+                                            how, other)))
+            << wrong.out;
+        EXPECT_TRUE(contains(wrong.out, "see --interpolation")) << wrong.out;
+        EXPECT_EQ(contains(wrong.out, "--interpolation multilinear --points -"), other == "multilinear") << wrong.out;
+        // Wrong by both.
+        std::string text = read_file(rows);
+        for (char& c : text) c = c == '7' ? '8' : c;
+        const Ended none = run(plus(with("verify", other.c_str()), {"--results", scratch.put("bad.csv", text)}));
+        EXPECT_FALSE(contains(none.out, "these values are")) << none.out;
     }
 }
 

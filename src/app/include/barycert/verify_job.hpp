@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "barycert/job.hpp"
+#include "barycert/locator.hpp"
 #include "barycert/result.hpp"
 #include "barycert/verify.hpp"
 
@@ -59,6 +60,7 @@ struct VerifyJob : MeshJob {
 /// Results of a verification, from which its reports are made.
 struct VerifyReport : MeshReport {
     std::string results;
+    CellInterpolation interpolation = CellInterpolation::linear;  ///< by which values are right
     bool certified = false;
     std::uint64_t contested_cells = 0;
     std::vector<std::string> columns;      ///< of the sampler: what was compared

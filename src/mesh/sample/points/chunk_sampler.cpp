@@ -14,6 +14,7 @@
 #include "barycert/mesh.hpp"
 #include "barycert/sampler.hpp"
 #include "barycert/simplex.hpp"
+#include "barycert/table.hpp"
 #include "barycert/weights.hpp"
 #include "core/base/finite.hpp"
 #include "core/blocks.hpp"

@@ -15,7 +15,6 @@
 #include "barycert/sampler.hpp"
 #include "barycert/simplex.hpp"
 #include "barycert/table.hpp"
-#include "barycert/weights.hpp"
 #include "mesh/index/cell_index.hpp"
 #include "mesh/locate/lanes.hpp"
 #include "mesh/locate/mapped/mapped_cells.hpp"

@@ -22,7 +22,6 @@
 #include "mesh/index/cell_index.hpp"
 #include "mesh/locate/batch.hpp"
 #include "mesh/locate/lanes.hpp"
-#include "mesh/locate/mapped/mapped_cells.hpp"
 #include "mesh/locate/sorted_points.hpp"
 #include "mesh/sample/points/chunk_sampler.hpp"
 #include "mesh/sample/points/sampler_data.hpp"
