@@ -298,7 +298,6 @@ TEST(IsoparametricValues, G1NoGradientAtTheApexAndOfNaN) {
     for (const double x : g) EXPECT_TRUE(std::isnan(x));
 }
 
-/// The field 3 x at x = 1 + 2^-52, between two doubles, where reference coordinates are no fractions.
 // Near the apex r and s are told by the direction from there alone. With w = 1 - t, Newton's method in 100 digits on
 // apex + w Q(r, s), where w and the point are scaled.
 TEST(IsoparametricValues, V1PyramidsNearTheirApex) {
@@ -375,23 +374,43 @@ TEST(IsoparametricValues, V1PyramidsNearTheirApex) {
     }
 }
 
+// At r = s = 1/3 the shape functions are 4/9, 2/9, 1/9 and 2/9: the value is 1 + 2^-53, between two doubles.
 TEST(IsoparametricValues, V1TiesThatNoPrecisionTellsHaveABound) {
-    const std::array<std::array<double, 2>, 4> nodes{{{0, 0}, {4, 0}, {3, 3}, {0, 2}}};
+    const std::array<std::array<double, 2>, 4> nodes{{{0, 0}, {36, 0}, {27, 27}, {0, 36}}};
+    constexpr std::array<double, 4> tie{1 + 0x1p-52, 1 + 0x1p-52, 1 - 3 * 0x1p-53, 1};
     Places places{};
     std::array<double, 8> values{};  // another component that is decided
     for (std::size_t i = 0; i < 4; ++i) {
         places.at[i] = nodes[i].data();
-        values[2 * i] = 3 * nodes[i][0];
+        values[2 * i] = tie[i];
         values[2 * i + 1] = nodes[i][0];
     }
-    const std::array<double, 2> point{1 + 0x1p-52, 1};
+    const std::array<double, 2> point{11, 11};
     std::array<double, 2> out{};
     const Evaluated found = evaluate(*linear_reference(9), places, point.data(), 0b1111, values.data(), 2, out.data());
     EXPECT_EQ(found.certainty, Certainty::undecided);
     EXPECT_EQ(found.tier, Tier::exact);
-    EXPECT_EQ(found.off, 0x1p-51);
-    EXPECT_TRUE(out[0] == 3 + 0x1p-51 || out[0] == 3 + 0x1p-50) << out[0];
+    EXPECT_EQ(found.off, 0x1p-52);
+    EXPECT_TRUE(out[0] == 1 || out[0] == 1 + 0x1p-52) << out[0];
     EXPECT_EQ(out[1], point[0]);
+}
+
+// The field 3 x at x = 1 + 2^-52, between two doubles, where reference coordinates are no fractions.
+TEST(IsoparametricValues, V1AffineFunctionsAreRoundedToEven) {
+    const std::array<std::array<double, 2>, 4> nodes{{{0, 0}, {4, 0}, {3, 3}, {0, 2}}};
+    Places places{};
+    std::array<double, 4> values{};
+    for (std::size_t i = 0; i < 4; ++i) {
+        places.at[i] = nodes[i].data();
+        values[i] = 3 * nodes[i][0];
+    }
+    for (const double x : {1 + 0x1p-52, 1 + 0x1p-51 + 0x1p-52}) {
+        const std::array<double, 2> point{x, 1};
+        double out = 0;
+        EXPECT_EQ(evaluate(*linear_reference(9), places, point.data(), 0b1111, values.data(), 1, &out).certainty,
+                  Certainty::proved);
+        EXPECT_EQ(out, 3 * x);  // rounded to even here, too
+    }
 }
 
 TEST_P(Isoparametric, ValuesOfAllSizesAndKinds) {

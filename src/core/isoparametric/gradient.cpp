@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "barycert/simplex.hpp"
+#include "core/isoparametric/affine_function.hpp"
 #include "core/isoparametric/ball.hpp"
 #include "core/isoparametric/component.hpp"
 #include "core/isoparametric/continuation.hpp"
@@ -108,21 +109,8 @@ public:
     void affine() {
         for (std::size_t c = 0; c < all_.size(); ++c) {
             if (!is_open(c)) continue;
-            const std::array<std::size_t, 3> along = edges();
-            std::array<std::array<Rational, 4>, 3> rows;
-            for (std::size_t j = 0; j < d_; ++j) {
-                for (std::size_t k = 0; k < d_; ++k) rows[j][k] = from_first(along[j], k);
-                rows[j][d_] = value(along[j], c) - value(0, c);
-            }
-            if (!eliminate(rows, d_)) continue;
-            const auto holds = [&](std::size_t node) {
-                Rational at = value(0, c);
-                for (std::size_t k = 0; k < d_; ++k) at += rows[k][d_] * from_first(node, k);
-                return at == value(node, c);
-            };
-            bool all = true;
-            for (std::size_t i = 1; all && i < of_.nodes; ++i) all = holds(i);
-            if (all) take(rows, c);
+            const auto f = affine_function(of_, places_, values_ + c, all_.size());
+            for (std::size_t k = 0; f && k < d_; ++k) put(d_ * c + k, rounded(f->gradient[k]));
         }
     }
 
@@ -130,16 +118,6 @@ private:
     bool is_open(std::size_t c) const { return std::count(open_.begin() + at(c), open_.begin() + at(c + 1), 1) != 0; }
     std::ptrdiff_t at(std::size_t c) const { return static_cast<std::ptrdiff_t>(d_ * c); }
     Rational value(std::size_t node, std::size_t c) const { return Rational(values_[all_.size() * node + c]); }
-    Rational from_first(std::size_t node, std::size_t k) const {
-        return exact_place(places_, node, k) - exact_place(places_, 0, k);
-    }
-
-    /// Corners that node 0 has edges to.
-    std::array<std::size_t, 3> edges() const {
-        if (of_.is_simplex() || of_.element == Element::wedge) return {1, 2, 3};
-        return {1, 3, 4};
-    }
-
     void settle(std::size_t at, const Ball<TwoDoubles>& g, int exponent) {
         if (const std::optional<double> found = value_of(g, exponent)) put(at, *found);
     }
@@ -155,11 +133,8 @@ private:
 
     bool solve(std::array<std::array<Rational, 4>, 3>& rows, std::size_t c) {
         if (!eliminate(rows, d_)) return false;
-        take(rows, c);
-        return true;
-    }
-    void take(const std::array<std::array<Rational, 4>, 3>& rows, std::size_t c) {
         for (std::size_t k = 0; k < d_; ++k) put(d_ * c + k, rounded(rows[k][d_]));
+        return true;
     }
 
     const Reference& of_;

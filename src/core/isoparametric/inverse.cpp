@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "barycert/simplex.hpp"
+#include "core/isoparametric/affine_function.hpp"
 #include "core/isoparametric/ball.hpp"
 #include "core/isoparametric/component.hpp"
 #include "core/isoparametric/continuation.hpp"
@@ -70,6 +71,15 @@ Evaluated evaluate_at(const Reference& of, const Places& places, const double* p
         }
         return {Certainty::proved, Tier::exact};
     }
+    // At a tie no ball would tell.
+    for (std::size_t c = 0; c < components; ++c) {
+        if (open[c] == 0) continue;
+        const auto f = affine_function(of, places, values + c, components);
+        if (!f) continue;
+        out[c] = rounded(f->at(places, point, of.dimension()));
+        open[c] = 0;
+    }
+    if (found && !left()) return {Certainty::proved, Tier::exact};
     if (!found || !values_in<Wide<300>>(of, inverse, beyond, all, 0x1p-250, open, out, nullptr)) return {};
     if (left()) values_in<Wide<1200>>(of, inverse, beyond, all, 0x1p-940, open, out, nullptr);
     Evaluated result{Certainty::proved, Tier::exact};
