@@ -374,10 +374,12 @@ TEST(IsoparametricValues, V1PyramidsNearTheirApex) {
     }
 }
 
-// At r = s = 1/3 the shape functions are 4/9, 2/9, 1/9 and 2/9: the value is 1 + 2^-53, between two doubles.
+// At r = s = 1/q the shape functions are (q - 1)^2, q - 1, 1 and q - 1, over q^2. With these values at nodes the value
+// is 1 + 2^-53, between two doubles; 1/3 is looked for, 1/65537 is not.
 TEST(IsoparametricValues, V1TiesThatNoPrecisionTellsHaveABound) {
-    const std::array<std::array<double, 2>, 4> nodes{{{0, 0}, {36, 0}, {27, 27}, {0, 36}}};
-    constexpr std::array<double, 4> tie{1 + 0x1p-52, 1 + 0x1p-52, 1 - 3 * 0x1p-53, 1};
+    constexpr double q = 65537;
+    const std::array<std::array<double, 2>, 4> nodes{{{0, 0}, {4 * q * q, 0}, {3 * q * q, 3 * q * q}, {0, 4 * q * q}}};
+    constexpr std::array<double, 4> tie{1, 1 + (q + 3) * 0x1p-53, 1 - (2 * q - 3) * 0x1p-53, 1};
     Places places{};
     std::array<double, 8> values{};  // another component that is decided
     for (std::size_t i = 0; i < 4; ++i) {
@@ -385,7 +387,7 @@ TEST(IsoparametricValues, V1TiesThatNoPrecisionTellsHaveABound) {
         values[2 * i] = tie[i];
         values[2 * i + 1] = nodes[i][0];
     }
-    const std::array<double, 2> point{11, 11};
+    const std::array<double, 2> point{4 * q - 1, 4 * q - 1};
     std::array<double, 2> out{};
     const Evaluated found = evaluate(*linear_reference(9), places, point.data(), 0b1111, values.data(), 2, out.data());
     EXPECT_EQ(found.certainty, Certainty::undecided);
@@ -393,6 +395,23 @@ TEST(IsoparametricValues, V1TiesThatNoPrecisionTellsHaveABound) {
     EXPECT_EQ(found.off, 0x1p-52);
     EXPECT_TRUE(out[0] == 1 || out[0] == 1 + 0x1p-52) << out[0];
     EXPECT_EQ(out[1], point[0]);
+}
+
+TEST(IsoparametricValues, V1TiesAtFractionsAreRoundedToEven) {
+    const std::array<std::array<double, 2>, 4> nodes{{{0, 0}, {36, 0}, {27, 27}, {0, 36}}};
+    Places places{};
+    for (std::size_t i = 0; i < 4; ++i) places.at[i] = nodes[i].data();
+    const std::array<double, 2> point{11, 11};  // at r = s = 1/3: 4/9, 2/9, 1/9, 2/9
+    // 1 + 2^-53 and 1 + 3 * 2^-53.
+    const std::array<std::array<double, 4>, 2> values{
+        {{1 + 0x1p-52, 1 + 0x1p-52, 1 - 3 * 0x1p-53, 1}, {1 + 0x1p-51, 1 + 0x1p-51, 1 - 0x1p-53, 1 + 0x1p-52}}};
+    constexpr std::array<double, 2> even{1, 1 + 0x1p-51};
+    for (std::size_t i = 0; i < 2; ++i) {
+        double out = 0;
+        const Evaluated found = evaluate(*linear_reference(9), places, point.data(), 0b1111, values[i].data(), 1, &out);
+        EXPECT_EQ(found.certainty, Certainty::proved);
+        EXPECT_EQ(out, even[i]);
+    }
 }
 
 // The field 3 x at x = 1 + 2^-52, between two doubles, where reference coordinates are no fractions.

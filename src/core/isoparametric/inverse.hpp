@@ -4,7 +4,8 @@
 /// of X' there, Krawczyk's operator proves it: if all Jacobians over the box B of radius R around c satisfy
 /// |1 - Y X'| <= m < 1/2 by the row sums, and |Y (X(c) - p)| <= R / 2, there is exactly one x in B with X(x) = p, and
 /// it differs from c - Y (X(c) - p) by at most m R. Repeated in numbers of more and more bits until the value rounds to
-/// one double. Where cells are affine, or x turns out to be a number of few bits, all is rational and exact; so is the
+/// one double. Where cells are affine, or x turns out to be a number of few bits or a
+/// fraction of small numbers, all is rational and exact; so is the
 /// value of an affine function of the places of the nodes.
 #pragma once
 

@@ -5,9 +5,11 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "core/isoparametric/ball.hpp"
 #include "core/isoparametric/inverse.hpp"
@@ -28,6 +30,26 @@ bool may_be_inside(const Reference& of, const std::array<Ball<T>, 3>& x) {
         if (summed) rest = rest - x[k];
     }
     return !negative(rest);
+}
+
+/// The number of 30 bits behind the point that x is, or else a fraction with a denominator up to 2^16 that rounds to
+/// about x; nothing where there is none, as nearly everywhere.
+inline std::optional<Rational> simple_fraction(double x) {
+    const double near = std::nearbyint(x * 0x1p30) * 0x1p-30;
+    if (std::abs(near - x) <= 0x1p-60) return Rational(near);
+    // Continued fractions: p / q, and the one before.
+    double rest = x;
+    std::int64_t p_before = 0, q_before = 1, p = 1, q = 0;
+    for (int step = 0; step < 24 && std::abs(rest) < 0x1p17; ++step) {
+        const double whole = std::floor(rest);
+        const auto a = static_cast<std::int64_t>(whole);
+        p_before = std::exchange(p, a * p + p_before);
+        q_before = std::exchange(q, a * q + q_before);
+        if (q > 0x10000) break;
+        if (std::abs(static_cast<double>(p) / static_cast<double>(q) - x) <= 0x1p-51) return Rational(p) / Rational(q);
+        rest = 1 / (rest - whole);
+    }
+    return std::nullopt;
 }
 
 /// A point beside the nodes of a cell, all of them divided by one power of two.
@@ -221,9 +243,9 @@ public:
         Vector<Rational> x{};
         if (affine(x)) return x;
         for (std::size_t k = 0; k < d_; ++k) {
-            const double near = std::nearbyint(about[k] * 0x1p30) * 0x1p-30;
-            if (std::abs(near - about[k]) > 0x1p-60) return std::nullopt;
-            x[k] = Rational(near);
+            const std::optional<Rational> fraction = simple_fraction(about[k]);
+            if (!fraction) return std::nullopt;
+            x[k] = *fraction;
         }
         if (shrink_ != 0) x[2] = 1 - Rational(1 - x[2]) * Rational(std::ldexp(1.0, -shrink_));
         return is_at(x) ? std::optional(x) : std::nullopt;
