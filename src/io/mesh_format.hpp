@@ -5,7 +5,6 @@
 #include <string>
 
 #include "barycert/result.hpp"
-#include "files/format.hpp"
 
 namespace barycert::io {
 
