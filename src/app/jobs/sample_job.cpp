@@ -34,15 +34,11 @@
 #include "barycert/table.hpp"
 #include "barycert/table_files.hpp"
 #include "core/base/finite.hpp"
-#include "files/format.hpp"
 #include "files/input_file.hpp"
 #include "io/paths.hpp"
 #include "io/polygons/triangles.hpp"
 
 namespace barycert {
-
-using base::FormatKind;
-using base::Use;
 namespace {
 
 using jobs::refuse_member;
